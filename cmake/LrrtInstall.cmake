@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs the libraries, headers, default model and the CMake package "lrrt".
+if(NOT TARGET lrrt)
+  return()
+endif()
+
+include(CMakePackageConfigHelpers)
+set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/lrrt")
+set(lrrt_libraries lrrt)
+if(TARGET lrrt_io)
+  list(APPEND lrrt_libraries lrrt_io)
+endif()
+
+install(TARGETS ${lrrt_libraries} EXPORT lrrtTargets)
+install(DIRECTORY include/lrrt "${PROJECT_BINARY_DIR}/include/lrrt" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+  FILES_MATCHING PATTERN "*.hpp")
+install(FILES models/default.onnx DESTINATION "${CMAKE_INSTALL_DATADIR}/lrrt/models" OPTIONAL)
+if(LrrtOnnxRuntime_BUNDLED)
+  file(REAL_PATH "${LrrtOnnxRuntime_LIBRARY}" onnxruntime_file)
+  install(FILES "${onnxruntime_file}" DESTINATION "${CMAKE_INSTALL_LIBDIR}" RENAME libonnxruntime.so.1)
+endif()
+
+configure_package_config_file(cmake/lrrtConfig.cmake.in "${PROJECT_BINARY_DIR}/lrrtConfig.cmake"
+  INSTALL_DESTINATION "${package_dir}")
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/lrrtConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
+install(FILES
+  "${PROJECT_BINARY_DIR}/lrrtConfig.cmake"
+  "${PROJECT_BINARY_DIR}/lrrtConfigVersion.cmake"
+  cmake/FindLrrtOmpl.cmake cmake/FindLrrtOpenCV.cmake cmake/FindLrrtYamlCpp.cmake
+  DESTINATION "${package_dir}")
+install(EXPORT lrrtTargets NAMESPACE lrrt:: DESTINATION "${package_dir}")
