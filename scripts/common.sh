@@ -41,3 +41,23 @@ mark_current() {
   printf '%s\n' "$2" >"$stamps/$1.tmp"
   mv "$stamps/$1.tmp" "$stamps/$1"
 }
+
+# Prints a Python (PYTHON, else python3, else the system's) that is new enough and can make a venv and build modules.
+find_python() {
+  local python
+  for python in "${PYTHON:-python3}" /usr/bin/python3; do
+    if "$python" - 2>/dev/null <<'PY'; then command -v "$python"; return; fi
+import ensurepip, os, sys, sysconfig, venv
+assert sys.version_info >= (3, 10) and os.path.exists(os.path.join(sysconfig.get_path("include"), "Python.h"))
+PY
+  done
+  return 1
+}
+
+# pip install into .venv, with advice when it fails.
+pip_install() {
+  "$venv/bin/python" -m pip install --quiet --disable-pip-version-check --retries 5 "$@" ||
+    die "pip install failed: $*" \
+      "Is the network up? Behind a proxy set https_proxy; for a mirror set PIP_INDEX_URL." \
+      "Wheels that were downloaded stay in pip's cache; run the command again to go on."
+}

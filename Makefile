@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The everyday commands. Each does the set-up that it needs, skips what is up to date, and can be interrupted and
+# run again. Variables: PRESET (release, debug, asan, ci), JOBS, PYTHON, ONNXRUNTIME_ROOT.
+.DEFAULT_GOAL := help
+.NOTPARALLEL:
+SHELL := /bin/bash
+
+PRESET ?= release
+JOBS ?= $(shell nproc)
+export JOBS
+python := .venv/bin/python
+
+.PHONY: help
+help: ## Show this list
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "make %-16s %s\n", $$1, $$2}' Makefile
+
+.PHONY: setup
+setup: ## Install what the build needs: apt packages, .venv, ONNX Runtime in .deps
+	@scripts/setup_apt.sh
+	@scripts/setup_python.sh
+	@scripts/setup_onnxruntime.sh
+
+.PHONY: build
+build: setup ## Build the C++ library, programs, tests and the Python module into build/PRESET
+	@scripts/build.sh $(PRESET)
+
+.PHONY: install-python
+install-python: build ## Install the Python package lrrt into .venv
+	@scripts/install_python.sh $(PRESET)
+
+.PHONY: demo
+demo: install-python ## Plan on a sample map with the shipped model; writes demo.png
+	@echo "==> Running the demo"
+	@$(python) -m lrrt.demo
+
+.PHONY: setup-training
+setup-training: install-python
+	@scripts/setup_training.sh
+
+.PHONY: test
+test: setup-training ## Run every test: C++, Python, training
+	@echo "==> C++ tests"
+	@ctest --test-dir build/$(PRESET) --output-on-failure --no-tests=error --parallel $(JOBS)
+	@echo "==> Python tests"
+	@$(python) -m pytest -q tests/python
+	@echo "==> Training tests"
+	@$(python) -m pytest -q -c training/pyproject.toml training/tests
+
+.PHONY: lint
+lint: install-python ## Check formatting, style and types
+	@scripts/lint.sh check
+
+.PHONY: format
+format: setup ## Format C++ and Python sources in place
+	@scripts/lint.sh fix
+
+.PHONY: clean
+clean: ## Remove what was built; .venv and .deps stay
+	rm -rf build dist
+	rm -f .deps/stamps/configure-* .deps/stamps/lrrt

@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Makes the virtual environment .venv with the tools of requirements-dev.txt.
+set -euo pipefail
+# shellcheck source=scripts/common.sh
+. "$(dirname "$0")/common.sh"
+
+python="$(find_python)" || die "no Python 3.10 or newer with venv and headers was found." \
+  "Install python3, python3-dev and python3-venv, or set PYTHON to an interpreter that has them."
+
+want="$(fingerprint "$venv" "$("$python" -VV)")"
+if [ ! -x "$venv/bin/python" ] || ! is_current venv "$want"; then
+  say "Making .venv with $("$python" -V)"
+  rm -f "$stamps"/{python,training,lrrt}
+  "$python" -m venv --clear "$venv"
+  mark_current venv "$want"
+fi
+
+want="$(fingerprint "$root/requirements-dev.txt")"
+if ! is_current python "$want"; then
+  say "Installing the Python tools of requirements-dev.txt"
+  pip_install --upgrade pip -r "$root/requirements-dev.txt"
+  mark_current python "$want"
+fi

@@ -1,0 +1,12 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs the training package, editable, with PyTorch and all else it needs. Needs the lrrt package in .venv.
+set -euo pipefail
+# shellcheck source=scripts/common.sh
+. "$(dirname "$0")/common.sh"
+
+want="$(fingerprint "$root/training/pyproject.toml")"
+is_current training "$want" && exit 0
+say "Installing the training package; PyTorch brings about 3 GB of downloads"
+pip_install -e "$root/training[test]"
+mark_current training "$want"
