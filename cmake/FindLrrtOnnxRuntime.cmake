@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Defines LrrtOnnxRuntime::headers. The library itself is opened at run time, never linked, so only its
-# path matters: LrrtOnnxRuntime_LIBRARY (may be empty), and LrrtOnnxRuntime_BUNDLED when it is the one in .deps.
+# path matters: LrrtOnnxRuntime_LIBRARY (may be empty).
 #
 # Looked for in this order: ONNXRUNTIME_ROOT (variable or environment), find_package(onnxruntime CONFIG),
 # .deps/onnxruntime (scripts/setup_onnxruntime.sh puts it there), the default paths.
@@ -32,6 +32,10 @@ else()
   endif()
   _lrrt_look_in(PATHS "${_lrrt_bundle}" NO_DEFAULT_PATH)
   _lrrt_look_in()
+  if(NOT LrrtOnnxRuntime_INCLUDE_DIR AND LRRT_FETCH_ONNXRUNTIME)
+    execute_process(COMMAND "${PROJECT_SOURCE_DIR}/scripts/setup_onnxruntime.sh")
+    _lrrt_look_in(PATHS "${_lrrt_bundle}" NO_DEFAULT_PATH)
+  endif()
 endif()
 
 include(FindPackageHandleStandardArgs)
@@ -42,14 +46,23 @@ find_package_handle_standard_args(LrrtOnnxRuntime
 if(NOT LrrtOnnxRuntime_LIBRARY)
   set(LrrtOnnxRuntime_LIBRARY "")
 endif()
-string(FIND "${LrrtOnnxRuntime_LIBRARY}" "${_lrrt_bundle}/" _lrrt_position)
-set(LrrtOnnxRuntime_BUNDLED FALSE)
-if(_lrrt_position EQUAL 0)
-  set(LrrtOnnxRuntime_BUNDLED TRUE)
-endif()
 
 if(LrrtOnnxRuntime_FOUND AND NOT TARGET LrrtOnnxRuntime::headers)
   add_library(LrrtOnnxRuntime::headers INTERFACE IMPORTED)
   target_include_directories(LrrtOnnxRuntime::headers SYSTEM INTERFACE "${LrrtOnnxRuntime_INCLUDE_DIR}")
   message(STATUS "ONNX Runtime library, opened at run time: ${LrrtOnnxRuntime_LIBRARY}")
 endif()
+
+# lrrt_install_onnxruntime(folder licenses install-options...): installs the library, with its licences, where it is the
+# one in .deps. One that the user installed stays where it is.
+function(lrrt_install_onnxruntime folder licenses)
+  set(bundle "${PROJECT_SOURCE_DIR}/.deps/onnxruntime")
+  string(FIND "${LrrtOnnxRuntime_LIBRARY}" "${bundle}/" position)
+  if(position EQUAL 0)
+    file(REAL_PATH "${LrrtOnnxRuntime_LIBRARY}" file)
+    install(FILES "${file}" DESTINATION "${folder}" RENAME libonnxruntime.so.1 ${ARGN})
+    install(FILES "${bundle}/LICENSE" DESTINATION "${licenses}" RENAME onnxruntime-LICENSE ${ARGN})
+    install(FILES "${bundle}/ThirdPartyNotices.txt" DESTINATION "${licenses}"
+      RENAME onnxruntime-ThirdPartyNotices.txt ${ARGN})
+  endif()
+endfunction()

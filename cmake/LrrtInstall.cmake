@@ -15,10 +15,7 @@ install(TARGETS ${lrrt_libraries} EXPORT lrrtTargets)
 install(DIRECTORY include/lrrt "${PROJECT_BINARY_DIR}/include/lrrt" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
   FILES_MATCHING PATTERN "*.hpp")
 install(FILES models/default.onnx DESTINATION "${CMAKE_INSTALL_DATADIR}/lrrt/models" OPTIONAL)
-if(LrrtOnnxRuntime_BUNDLED)
-  file(REAL_PATH "${LrrtOnnxRuntime_LIBRARY}" onnxruntime_file)
-  install(FILES "${onnxruntime_file}" DESTINATION "${CMAKE_INSTALL_LIBDIR}" RENAME libonnxruntime.so.1)
-endif()
+lrrt_install_onnxruntime("${CMAKE_INSTALL_LIBDIR}" "${CMAKE_INSTALL_DATADIR}/lrrt/licenses")
 
 configure_package_config_file(cmake/lrrtConfig.cmake.in "${PROJECT_BINARY_DIR}/lrrtConfig.cmake"
   INSTALL_DESTINATION "${package_dir}")
