@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace lrrt {
+
+/// State of one pixel of a map.
+enum class Cell : std::uint8_t { free = 0, occupied = 1, unknown = 2 };
+
+/// Whether a planner may pass through unknown pixels.
+enum class UnknownIs : std::uint8_t { occupied, free };
+
+/// Column and row of a pixel; row 0 is the top of the picture.
+struct Pixel {
+  int c = 0;
+  int r = 0;
+  friend bool operator==(Pixel a, Pixel b) { return a.c == b.c && a.r == b.r; }
+  friend bool operator!=(Pixel a, Pixel b) { return !(a == b); }
+};
+
+/// Position and heading of the map's lower-left corner in the map frame.
+struct Pose2 {
+  double x = 0.0;    ///< map units
+  double y = 0.0;    ///< map units
+  double yaw = 0.0;  ///< radians, counter-clockwise
+};
+
+/// Axis-aligned bounds in map units.
+struct Bounds {
+  Eigen::Vector2d low = Eigen::Vector2d::Zero();
+  Eigen::Vector2d high = Eigen::Vector2d::Zero();
+};
+
+/// A trinary occupancy grid and the frame it lives in.
+///
+/// Two frames exist. *Pixel coordinates* are continuous, x right and y down; pixel (c, r) covers [c, c+1) × [r, r+1).
+/// *Map units* are what users speak: the same as pixel coordinates for a plain picture, metres with y up for a map that
+/// has a resolution and an origin (the convention of ROS map_server). This class is the only place that converts.
+class OccupancyMap {
+ public:
+  /// A plain picture: map units are pixels.
+  /// @param cells row-major, row 0 at the top, width × height values.
+  /// @throws MapError when a side is not positive or the number of cells does not fit.
+  OccupancyMap(int width, int height, std::vector<Cell> cells);
+
+  /// A metric map in the convention of ROS map_server.
+  /// @param resolution metres per pixel, positive and finite.
+  /// @param origin pose of the lower-left corner of the lower-left pixel.
+  /// @throws MapError as above, and for a resolution or origin that is not finite or not positive.
+  OccupancyMap(int width, int height, std::vector<Cell> cells, double resolution, Pose2 origin);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  std::size_t size() const { return cells_.size(); }
+  const std::vector<Cell>& cells() const { return cells_; }
+
+  /// True for a map in metres, false for a plain picture.
+  bool is_metric() const { return metric_; }
+  /// Map units per pixel; 1 for a plain picture.
+  double resolution() const { return resolution_; }
+  Pose2 origin() const { return origin_; }
+
+  bool contains(Pixel p) const { return p.c >= 0 && p.r >= 0 && p.c < width_ && p.r < height_; }
+  /// Row-major index of a pixel that the map contains.
+  std::size_t index(Pixel p) const {
+    return static_cast<std::size_t>(p.r) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(p.c);
+  }
+  Cell at(Pixel p) const { return cells_[index(p)]; }
+  /// True when the pixel lies on the map and is free (unknown is not free; see resolved()).
+  bool is_free(Pixel p) const { return contains(p) && at(p) == Cell::free; }
+
+  /// Pixel that holds a point in pixel coordinates; far-away points saturate and are never on the map.
+  static Pixel pixel_of(const Eigen::Vector2d& point);
+  /// Map units to pixel coordinates.
+  Eigen::Vector2d to_pixel(const Eigen::Vector2d& world) const;
+  /// Pixel coordinates to map units.
+  Eigen::Vector2d to_world(const Eigen::Vector2d& pixel) const;
+  /// Centre of a pixel in map units.
+  Eigen::Vector2d center(Pixel p) const { return to_world({p.c + 0.5, p.r + 0.5}); }
+  /// Smallest axis-aligned box in map units that holds the whole map.
+  Bounds bounds() const;
+
+  /// The same map with every unknown pixel turned into free or occupied.
+  OccupancyMap resolved(UnknownIs meaning) const;
+  /// The same frame with other cells. @throws MapError when their number does not fit.
+  OccupancyMap with_cells(std::vector<Cell> cells) const;
+
+ private:
+  OccupancyMap(int width, int height, std::vector<Cell> cells, double resolution, Pose2 origin, bool metric);
+
+  int width_;
+  int height_;
+  std::vector<Cell> cells_;
+  double resolution_;
+  Pose2 origin_;
+  bool metric_;
+  double cos_yaw_;
+  double sin_yaw_;
+};
+
+}  // namespace lrrt

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ompl/base/ProblemDefinition.h>
+#include <ompl/base/SpaceInformation.h>
+
+#include <memory>
+
+#include "lrrt/ompl/guided_sampler.hpp"
+#include "lrrt/ompl/map_validity.hpp"
+#include "lrrt/ompl/planners.hpp"
+#include "lrrt/plan.hpp"
+
+namespace lrrt {
+
+/// One search of an OMPL planner in the plane of a map: exact collision checks, guided samples, own termination.
+class MapSearch {
+ public:
+  /// @param start,goal map units, both free.
+  MapSearch(std::shared_ptr<const CollisionMap> map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
+            MixedSampler sampler, const PlanOptions& options);
+
+  /// Runs until a path is good enough or a limit is reached; fills status, path, cost, counters and history of the
+  /// result.
+  void run(PlanResult& result);
+
+ private:
+  void record_costs(PlanResult& result);
+  ompl::base::Cost target_cost() const;
+  double reference_cost() const;
+  void read_path(PlanResult& result) const;
+  void read_tree(PlanResult& result) const;
+
+  std::shared_ptr<const CollisionMap> map_;
+  Eigen::Vector2d start_;
+  Eigen::Vector2d goal_;
+  PlanOptions options_;
+  std::shared_ptr<PlaneProjection> projection_;
+  ompl::base::SpaceInformationPtr si_;
+  ompl::base::ProblemDefinitionPtr problem_;
+  std::shared_ptr<GuidedSource> source_;
+  MapPlanner planner_;
+  std::size_t iterations_ = 0;
+};
+
+/// A range that suits a map: twice the mean clearance of its free pixels, so that motions fit its passages, and no less
+/// than the paper's share of the map's side (6 of 256 pixels).
+/// @return map units.
+double suitable_range(const CollisionMap& map);
+
+}  // namespace lrrt

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ompl/base/MotionValidator.h>
+#include <ompl/base/StateValidityChecker.h>
+
+#include <memory>
+#include <utility>
+
+#include "lrrt/map/distance_field.hpp"
+#include "lrrt/map/occupancy_map.hpp"
+#include "lrrt/map/segment_walk.hpp"
+#include "lrrt/ompl/map_projection.hpp"
+
+namespace lrrt {
+
+/// A map made ready for collision checks: its frame, its distance field and the walk over it.
+class CollisionMap {
+ public:
+  explicit CollisionMap(OccupancyMap map) : map_(std::move(map)), field_(map_), walk_(field_) {}
+  CollisionMap(const CollisionMap&) = delete;
+  CollisionMap& operator=(const CollisionMap&) = delete;
+
+  const OccupancyMap& map() const { return map_; }
+  const DistanceField& field() const { return field_; }
+  /// True when a point, map units, is free.
+  bool is_free(const Eigen::Vector2d& point) const { return walk_.is_free(map_.to_pixel(point)); }
+  /// True when every pixel that a straight motion touches is free. @param from,to map units.
+  bool is_free(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+    return walk_.is_free(map_.to_pixel(from), map_.to_pixel(to));
+  }
+
+ private:
+  OccupancyMap map_;
+  DistanceField field_;
+  SegmentWalk walk_;
+};
+
+/// OMPL's view of CollisionMap::is_free for states.
+class MapValidityChecker final : public ompl::base::StateValidityChecker {
+ public:
+  MapValidityChecker(const ompl::base::SpaceInformationPtr& si, std::shared_ptr<const CollisionMap> map,
+                     std::shared_ptr<const MapProjection> projection);
+  bool isValid(const ompl::base::State* state) const override;
+  /// Distance to the nearest obstacle, map units: a lower bound of it, never negative.
+  double clearance(const ompl::base::State* state) const override;
+
+ private:
+  std::shared_ptr<const CollisionMap> map_;
+  std::shared_ptr<const MapProjection> projection_;
+};
+
+/// OMPL's view of CollisionMap::is_free for straight motions: exact, where OMPL's own check samples the motion and
+/// skips thin walls.
+class MapMotionValidator final : public ompl::base::MotionValidator {
+ public:
+  MapMotionValidator(const ompl::base::SpaceInformationPtr& si, std::shared_ptr<const CollisionMap> map,
+                     std::shared_ptr<const MapProjection> projection);
+  bool checkMotion(const ompl::base::State* from, const ompl::base::State* to) const override;
+  /// Also finds the last free state, by bisection.
+  bool checkMotion(const ompl::base::State* from, const ompl::base::State* to,
+                   std::pair<ompl::base::State*, double>& last_valid) const override;
+
+ private:
+  std::shared_ptr<const CollisionMap> map_;
+  std::shared_ptr<const MapProjection> projection_;
+};
+
+}  // namespace lrrt

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ompl/base/Planner.h>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace lrrt {
+
+/// Parameters that every tree planner shares.
+struct PlannerSettings {
+  double range = 0.0;       ///< longest extension of the tree, map units; 0 leaves the planner's default
+  double goal_bias = 0.05;  ///< share of iterations that aim at the goal (RRT and RRT*)
+  std::uint32_t seed = 1;   ///< of the planner's own random numbers; not 0
+};
+
+/// An OMPL planner and what OMPL's common interface does not tell.
+struct MapPlanner {
+  ompl::base::PlannerPtr planner;
+  std::function<std::size_t()> nodes;  ///< number of nodes in the tree or trees, in O(1)
+};
+
+/// Names that make_planner() knows, as OMPL spells them.
+const std::vector<std::string>& planner_names();
+
+/// Makes an OMPL planner by name. RRT* rewires within a shrinking disc (Karaman and Frazzoli 2011), as the paper's
+/// does.
+/// @throws RequestError for an unknown name; the text lists the known ones.
+MapPlanner make_planner(const std::string& name, const ompl::base::SpaceInformationPtr& si,
+                        const PlannerSettings& settings);
+
+}  // namespace lrrt

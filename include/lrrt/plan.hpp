@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <atomic>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lrrt/map/occupancy_map.hpp"
+#include "lrrt/region/promising_region.hpp"
+#include "lrrt/sampling/strategy.hpp"
+
+namespace lrrt {
+
+/// How a call of Planner::plan ended.
+enum class PlanStatus {
+  solved,           ///< a free path was found
+  start_outside,    ///< the start lies outside the map
+  goal_outside,     ///< the goal lies outside the map
+  start_occupied,   ///< the robot does not fit at the start
+  goal_occupied,    ///< the robot does not fit at the goal
+  not_connected,    ///< no free path exists: start and goal lie in different free components
+  time_limit,       ///< time ran out before a path was found
+  iteration_limit,  ///< iterations ran out before a path was found
+  cancelled,        ///< the caller's cancel token was set before a path was found
+};
+
+/// The status as a word, e.g. "not_connected".
+const char* to_string(PlanStatus status);
+
+/// Where the guided share of the samples comes from.
+enum class Strategy {
+  uniform,  ///< no guidance: conventional planning
+  region,   ///< uniformly from the promising region (the paper's sampler)
+};
+
+/// @throws RequestError for an unknown word; the text lists the known ones.
+Strategy strategy_from_string(const std::string& word);
+
+/// When to stop. A time or iteration limit always ends the search too.
+enum class Stop {
+  first,   ///< at the first path
+  factor,  ///< when the cost is within PlanOptions::cost_factor of the reference, see there
+  limit,   ///< only at a limit: use all of the time or the iterations to shorten the path
+};
+
+/// @throws RequestError for an unknown word; the text lists the known ones.
+Stop stop_from_string(const std::string& word);
+
+/// Lets another thread end a search; copies share one flag.
+class CancelToken {
+ public:
+  void cancel() { flag_->store(true, std::memory_order_relaxed); }
+  bool cancelled() const { return flag_->load(std::memory_order_relaxed); }
+
+ private:
+  std::shared_ptr<std::atomic<bool>> flag_ = std::make_shared<std::atomic<bool>>(false);
+};
+
+/// What to plan.
+struct PlanRequest {
+  const OccupancyMap& map;
+  Eigen::Vector2d start;                    ///< map units
+  Eigen::Vector2d goal;                     ///< map units
+  double radius = 0.0;                      ///< of a disc-shaped robot, map units; 0 plans for a point
+  UnknownIs unknown = UnknownIs::occupied;  ///< whether the robot may enter unknown pixels
+};
+
+/// How to plan.
+struct PlanOptions {
+  std::string planner = "RRTstar";       ///< one of planner_names(): RRT, RRTConnect, RRTstar
+  Strategy strategy = Strategy::region;  ///< where guided samples come from
+  double alpha = 0.8;                    ///< share of guided samples, 0 to 1; 1 gives up completeness
+  double range = 0.0;                    ///< longest extension of the tree, map units; 0 chooses by the map's clearance
+  double goal_bias = 0.05;               ///< share of iterations that aim at the goal (RRT and RRT*)
+  double goal_tolerance = 0.0;           ///< the path may end this far from the goal, map units; 0 ends exactly there
+  Stop stop = Stop::first;
+  double cost_factor =
+      1.05;  ///< for Stop::factor: the reference is the shortest grid path, straightened by line of sight
+  double time_limit = 5.0;  ///< seconds of planning, prediction not counted
+  std::size_t iteration_limit = std::numeric_limits<std::size_t>::max();
+  std::uint64_t seed = 1;  ///< same seed, same result on one thread (unless time ends the search)
+  bool keep_tree = false;  ///< return the tree's edges
+  CancelToken cancel{};
+};
+
+/// Wall-clock time of each stage, milliseconds.
+struct PlanTimings {
+  double prepare = 0.0;  ///< inflation, reachability, distance field
+  double encode = 0.0;   ///< see PredictTimings
+  double infer = 0.0;
+  double region = 0.0;
+  double plan = 0.0;   ///< the sampling-based search
+  double total = 0.0;  ///< the whole call
+};
+
+/// A shorter path found on the way.
+struct CostStep {
+  double time = 0.0;  ///< milliseconds since the search began
+  std::size_t iteration = 0;
+  double cost = 0.0;  ///< length, map units
+};
+
+/// One edge of the tree, map units.
+struct TreeEdge {
+  Eigen::Vector2d from;
+  Eigen::Vector2d to;
+};
+
+/// What came out.
+struct PlanResult {
+  PlanStatus status = PlanStatus::time_limit;
+  std::vector<Eigen::Vector2d> path;                      ///< map units, from start to goal; empty unless solved
+  double cost = std::numeric_limits<double>::infinity();  ///< length of the path, map units
+  std::size_t iterations = 0;                             ///< iterations of the planner
+  std::size_t nodes = 0;                                  ///< nodes in its tree
+  DrawCounts draws{};                                     ///< samples drawn from the region and uniformly
+  std::vector<CostStep> cost_history;                     ///< strictly falling costs (RRT*)
+  std::vector<TreeEdge> tree;                             ///< only with PlanOptions::keep_tree
+  std::optional<PromisingRegion> promising;               ///< the region that was used
+  PlanTimings timings{};
+
+  bool solved() const { return status == PlanStatus::solved; }
+};
+
+}  // namespace lrrt

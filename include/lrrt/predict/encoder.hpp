@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "lrrt/map/components.hpp"
+#include "lrrt/map/occupancy_map.hpp"
+#include "lrrt/region/picture.hpp"
+
+namespace lrrt {
+
+/// What a network expects of its input picture.
+struct InputSpec {
+  int size = 256;       ///< side of the square input, pixels
+  int marker_side = 5;  ///< side of the start and goal squares, input pixels; a larger map pixel makes a larger square
+  Colours colours{};    ///< colours of the picture
+};
+
+/// Where a map lies inside the network's input.
+///
+/// The part of the map that matters is enlarged by a whole factor where it is smaller than the input, scaled down where
+/// it is larger, and centred.
+struct InputFit {
+  int size = 0;        ///< side of the input, pixels
+  PixelBox crop{};     ///< the part of the map that is shown, map pixels
+  double scale = 1.0;  ///< input pixels per map pixel
+  PixelBox placed{};   ///< where that part lies in the input, input pixels
+
+  /// Nearest resampling of a map-sized array onto the input.
+  /// @param values row-major, map.width × map.height. @param fill value outside the map's part.
+  /// @return size × size values.
+  std::vector<std::uint8_t> to_input(const std::vector<std::uint8_t>& values, int map_width, std::uint8_t fill) const;
+
+  /// Brings a plane of the network's output back to map pixels: averaged where the map was enlarged, interpolated where
+  /// it was scaled down, 0 outside the part that was shown.
+  /// @param plane size × size values. @return map_width × map_height values.
+  std::vector<float> to_map(const float* plane, int map_width, int map_height) const;
+};
+
+/// Turns a map, a start and a goal into the picture that the network sees. Training and inference share this one
+/// encoder.
+///
+/// The picture shows the bounding box of the free component of start and goal plus one pixel, so that a small room in a
+/// large empty scan fills the input. Scaling down averages areas: a thin passage or wall stays visible as grey.
+class Encoder {
+ public:
+  /// @throws RequestError when the input is smaller than 8 pixels or the marker does not fit into it.
+  explicit Encoder(InputSpec spec = {});
+
+  const InputSpec& spec() const { return spec_; }
+
+  /// @param start,goal map units. @param image receives 3 × size × size bytes: the red, the green, the blue plane.
+  /// @throws RequestError when start or goal does not lie on a free pixel.
+  InputFit encode(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
+                  std::vector<std::uint8_t>& image) const;
+
+ private:
+  InputSpec spec_;
+};
+
+}  // namespace lrrt

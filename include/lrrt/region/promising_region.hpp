@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lrrt/map/occupancy_map.hpp"
+
+namespace lrrt {
+
+/// Where a path probably lies (the paper, section III): a probability for every pixel of a map and the mask that
+/// follows.
+class PromisingRegion {
+ public:
+  /// @param probability row-major, one value in [0, 1] per pixel of the map; NaN counts as 0.
+  /// @param threshold a free pixel belongs to the mask from this probability on, in (0, 1].
+  /// @throws RequestError when the sizes do not fit or the threshold is out of range.
+  PromisingRegion(const OccupancyMap& map, std::vector<float> probability, Pixel start, Pixel goal,
+                  float threshold = 0.5F);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  /// Row-major probability of the promising class, width × height values.
+  const std::vector<float>& probability() const { return probability_; }
+  /// Row-major, 1 where a pixel is free and promising, else 0.
+  const std::vector<std::uint8_t>& mask() const { return mask_; }
+  /// Number of pixels in the mask.
+  std::size_t area() const { return area_; }
+  /// True when one can walk from start to goal inside the mask without touching any other pixel.
+  bool connected() const { return connected_; }
+
+ private:
+  int width_;
+  int height_;
+  std::vector<float> probability_;
+  std::vector<std::uint8_t> mask_;
+  std::size_t area_;
+  bool connected_;
+};
+
+}  // namespace lrrt

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "lrrt/ompl/map_search.hpp"
+
+#include <ompl/base/PlannerData.h>
+#include <ompl/base/goals/GoalState.h>
+#include <ompl/base/objectives/PathLengthOptimizationObjective.h>
+#include <ompl/base/spaces/RealVectorStateSpace.h>
+#include <ompl/geometric/PathGeometric.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+#include "lrrt/map/shortest_path.hpp"
+#include "lrrt/stopwatch.hpp"
+
+namespace lrrt {
+namespace {
+
+namespace ob = ompl::base;
+namespace og = ompl::geometric;
+
+ob::StateSpacePtr plane_over(const OccupancyMap& map) {
+  auto space = std::make_shared<ob::RealVectorStateSpace>(2);
+  const Bounds box = map.bounds();
+  ob::RealVectorBounds bounds(2);
+  for (unsigned int axis = 0; axis < 2; ++axis) {
+    bounds.setLow(axis, box.low[axis]);
+    bounds.setHigh(axis, box.high[axis]);
+  }
+  space->setBounds(bounds);
+  return space;
+}
+
+/// Straightens a pixel path by line of sight between the exact ends. @return its length, map units.
+double straightened_length(const CollisionMap& map, const std::vector<Pixel>& path, const Eigen::Vector2d& start,
+                           const Eigen::Vector2d& goal) {
+  std::vector<Eigen::Vector2d> points{start};
+  for (const Pixel p : path) points.push_back(map.map().center(p));
+  points.push_back(goal);
+  double length = 0.0;
+  for (std::size_t from = 0; from + 1 < points.size();) {
+    std::size_t to = from + 1;
+    while (to + 1 < points.size() && map.is_free(points[from], points[to + 1])) ++to;
+    length += (points[to] - points[from]).norm();
+    from = to;
+  }
+  return length;
+}
+
+/// Seeds OMPL's own generator from ours; OMPL refuses 0.
+std::uint32_t planner_seed(std::uint64_t seed) {
+  return std::max<std::uint32_t>(1U, static_cast<std::uint32_t>(Random(seed).bits() >> 32U));
+}
+
+}  // namespace
+
+double suitable_range(const CollisionMap& map) {
+  double sum = 0.0;
+  std::size_t free = 0;
+  for (const float distance : map.field().values()) {
+    sum += distance;
+    free += static_cast<std::size_t>(distance > 0.0F);
+  }
+  const double clearance = free > 0 ? sum / static_cast<double>(free) : 0.0;
+  const double side = std::max(map.map().width(), map.map().height());
+  return std::max(2.0 * clearance, side * 6.0 / 256.0) * map.map().resolution();
+}
+
+MapSearch::MapSearch(std::shared_ptr<const CollisionMap> map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
+                     MixedSampler sampler, const PlanOptions& options)
+    : map_(std::move(map)),
+      start_(start),
+      goal_(goal),
+      options_(options),
+      projection_(std::make_shared<PlaneProjection>()) {
+  const ob::StateSpacePtr space = plane_over(map_->map());
+  si_ = std::make_shared<ob::SpaceInformation>(space);
+  si_->setStateValidityChecker(std::make_shared<MapValidityChecker>(si_, map_, projection_));
+  si_->setMotionValidator(std::make_shared<MapMotionValidator>(si_, map_, projection_));
+  source_ = std::make_shared<GuidedSource>(map_->map(), std::move(sampler), projection_);
+  use_guided_sampler(*si_, source_);
+  si_->setup();
+
+  ob::ScopedState<> first(space);
+  ob::ScopedState<> last(space);
+  projection_->write(start_, first.get());
+  projection_->write(goal_, last.get());
+  problem_ = std::make_shared<ob::ProblemDefinition>(si_);
+  problem_->setStartAndGoalStates(first, last,
+                                  std::max(options_.goal_tolerance, std::numeric_limits<double>::epsilon()));
+  const auto objective = std::make_shared<ob::PathLengthOptimizationObjective>(si_);
+  objective->setCostThreshold(target_cost());
+  problem_->setOptimizationObjective(objective);
+
+  const double range = options_.range > 0.0 ? options_.range : suitable_range(*map_);
+  planner_ = make_planner(options_.planner, si_, {range, options_.goal_bias, planner_seed(options_.seed)});
+  planner_.planner->setProblemDefinition(problem_);
+  planner_.planner->setup();
+}
+
+ob::Cost MapSearch::target_cost() const {
+  switch (options_.stop) {
+    case Stop::first:
+      return ob::Cost(std::numeric_limits<double>::infinity());
+    case Stop::factor:
+      return ob::Cost(options_.cost_factor * reference_cost());
+    case Stop::limit:
+      break;
+  }
+  return ob::Cost(0.0);
+}
+
+double MapSearch::reference_cost() const {
+  const OccupancyMap& map = map_->map();
+  const std::vector<Pixel> path =
+      shortest_path(map, OccupancyMap::pixel_of(map.to_pixel(start_)), OccupancyMap::pixel_of(map.to_pixel(goal_)));
+  return straightened_length(*map_, path, start_, goal_);
+}
+
+void MapSearch::run(PlanResult& result) {
+  record_costs(result);
+  bool out_of_time = false;
+  const Stopwatch watch;
+  const double limit_ms = options_.time_limit * 1e3;
+  // OMPL's planners ask once an iteration, so the condition also counts them.
+  const ob::PlannerTerminationCondition stop([&] {
+    if (iterations_ >= options_.iteration_limit || options_.cancel.cancelled()) return true;
+    out_of_time = watch.total_ms() >= limit_ms;
+    if (out_of_time) return true;
+    ++iterations_;
+    return false;
+  });
+  planner_.planner->solve(stop);
+  result.timings.plan = watch.total_ms();
+  result.iterations = iterations_;
+  result.nodes = planner_.nodes();
+  result.draws = source_->counts();
+  if (problem_->hasExactSolution()) {
+    read_path(result);
+  } else if (options_.cancel.cancelled()) {
+    result.status = PlanStatus::cancelled;
+  } else {
+    result.status = out_of_time ? PlanStatus::time_limit : PlanStatus::iteration_limit;
+  }
+  if (options_.keep_tree) read_tree(result);
+}
+
+void MapSearch::record_costs(PlanResult& result) {
+  problem_->setIntermediateSolutionCallback([this, &result, watch = Stopwatch()](const ob::Planner*,
+                                                                                 const std::vector<const ob::State*>&,
+                                                                                 const ob::Cost cost) {
+    const bool better = result.cost_history.empty() || cost.value() < result.cost_history.back().cost;
+    if (better) result.cost_history.push_back({watch.total_ms(), iterations_, cost.value()});
+  });
+}
+
+void MapSearch::read_path(PlanResult& result) const {
+  auto& path = *problem_->getSolutionPath()->as<og::PathGeometric>();
+  result.status = PlanStatus::solved;
+  for (const ob::State* state : path.getStates()) result.path.push_back(projection_->read(state));
+  result.cost = 0.0;
+  for (std::size_t i = 1; i < result.path.size(); ++i) result.cost += (result.path[i] - result.path[i - 1]).norm();
+  const bool better = result.cost_history.empty() || result.cost < result.cost_history.back().cost;
+  if (better) result.cost_history.push_back({result.timings.plan, iterations_, result.cost});
+}
+
+void MapSearch::read_tree(PlanResult& result) const {
+  ob::PlannerData data(si_);
+  planner_.planner->getPlannerData(data);
+  std::vector<unsigned int> children;
+  for (unsigned int parent = 0; parent < data.numVertices(); ++parent) {
+    data.getEdges(parent, children);
+    const Eigen::Vector2d from = projection_->read(data.getVertex(parent).getState());
+    for (const unsigned int child : children) {
+      result.tree.push_back({from, projection_->read(data.getVertex(child).getState())});
+    }
+  }
+}
+
+}  // namespace lrrt

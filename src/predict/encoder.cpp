@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "lrrt/predict/encoder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <sstream>
+#include <string>
+
+#include "lrrt/error.hpp"
+
+namespace lrrt {
+namespace {
+
+cv::Rect to_rect(const PixelBox& box) {
+  return {box.c, box.r, box.width, box.height};
+}
+
+Pixel free_pixel(const OccupancyMap& map, const Eigen::Vector2d& point, const char* name) {
+  const Pixel pixel = OccupancyMap::pixel_of(map.to_pixel(point));
+  if (!map.is_free(pixel)) {
+    std::ostringstream text;
+    text << name << " (" << point.x() << ", " << point.y() << ") does not lie on a free pixel of the " << map.width()
+         << "×" << map.height() << " map: choose a free point, in map units";
+    throw RequestError(text.str());
+  }
+  return pixel;
+}
+
+/// The box of the components of start and goal, one pixel wider where the map goes on.
+PixelBox part_that_matters(const OccupancyMap& map, Pixel start, Pixel goal) {
+  const Components components(map);
+  const PixelBox box = united(components.box(components.label(start)), components.box(components.label(goal)));
+  const int c = std::max(0, box.c - 1);
+  const int r = std::max(0, box.r - 1);
+  return {c, r, std::min(map.width(), box.c + box.width + 1) - c, std::min(map.height(), box.r + box.height + 1) - r};
+}
+
+InputFit fit(int size, const PixelBox& crop) {
+  const int extent = std::max(crop.width, crop.height);
+  InputFit result;
+  result.size = size;
+  result.crop = crop;
+  result.scale = extent <= size ? static_cast<double>(size / extent) : static_cast<double>(size) / extent;
+  const auto scaled = [&](int side) { return std::max(1, static_cast<int>(std::lround(side * result.scale))); };
+  result.placed.width = scaled(crop.width);
+  result.placed.height = scaled(crop.height);
+  result.placed.c = (size - result.placed.width) / 2;
+  result.placed.r = (size - result.placed.height) / 2;
+  return result;
+}
+
+/// One plane with the brightness of the map: 255 free, 0 occupied, grey where pixels were averaged.
+cv::Mat1b brightness(const OccupancyMap& map, const InputFit& fit) {
+  cv::Mat1b part(fit.crop.height, fit.crop.width);
+  for (int r = 0; r < part.rows; ++r) {
+    const Cell* source = map.cells().data() + map.index({fit.crop.c, fit.crop.r + r});
+    std::transform(source, source + part.cols, part.ptr(r),
+                   [](Cell cell) { return static_cast<std::uint8_t>(cell == Cell::free ? 255 : 0); });
+  }
+  cv::Mat1b plane(fit.size, fit.size, std::uint8_t{0});
+  cv::Mat1b place = plane(to_rect(fit.placed));
+  cv::resize(part, place, place.size(), 0, 0, fit.scale < 1.0 ? cv::INTER_AREA : cv::INTER_NEAREST);
+  return plane;
+}
+
+/// Blends free and obstacle colour by brightness into one colour plane.
+void paint(const cv::Mat1b& bright, std::uint8_t obstacle, std::uint8_t free, cv::Mat1b plane) {
+  if (obstacle == 0 && free == 255) {
+    bright.copyTo(plane);
+    return;
+  }
+  bright.convertTo(plane, CV_8U, (free - obstacle) / 255.0, obstacle);
+}
+
+cv::Rect marker(const InputFit& fit, Pixel pixel, int least_side) {
+  const int side = std::max(least_side, static_cast<int>(std::ceil(fit.scale)));
+  const double x = fit.placed.c + (pixel.c - fit.crop.c + 0.5) * fit.scale;
+  const double y = fit.placed.r + (pixel.r - fit.crop.r + 0.5) * fit.scale;
+  const cv::Rect square(static_cast<int>(std::lround(x - side / 2.0)), static_cast<int>(std::lround(y - side / 2.0)),
+                        side, side);
+  return square & cv::Rect(0, 0, fit.size, fit.size);
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> InputFit::to_input(const std::vector<std::uint8_t>& values, int map_width,
+                                             std::uint8_t fill) const {
+  std::vector<std::uint8_t> result(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), fill);
+  const auto source = [this](int i, int side) { return std::min(side - 1, static_cast<int>((i + 0.5) / scale)); };
+  std::vector<int> columns(static_cast<std::size_t>(placed.width));
+  for (int i = 0; i < placed.width; ++i) columns[static_cast<std::size_t>(i)] = crop.c + source(i, crop.width);
+  for (int j = 0; j < placed.height; ++j) {
+    const auto row = static_cast<std::size_t>(crop.r + source(j, crop.height)) * static_cast<std::size_t>(map_width);
+    auto* target = result.data() + static_cast<std::size_t>(placed.r + j) * static_cast<std::size_t>(size) + placed.c;
+    for (const int column : columns) *target++ = values[row + static_cast<std::size_t>(column)];
+  }
+  return result;
+}
+
+std::vector<float> InputFit::to_map(const float* plane, int map_width, int map_height) const {
+  std::vector<float> result(static_cast<std::size_t>(map_width) * static_cast<std::size_t>(map_height), 0.0F);
+  const cv::Mat1f input(size, size, const_cast<float*>(plane));
+  cv::Mat1f place = cv::Mat1f(map_height, map_width, result.data())(to_rect(crop));
+  cv::resize(input(to_rect(placed)), place, place.size(), 0, 0, scale < 1.0 ? cv::INTER_LINEAR : cv::INTER_AREA);
+  return result;
+}
+
+Encoder::Encoder(InputSpec spec) : spec_(spec) {
+  if (spec_.size < 8 || spec_.size > 8192) {
+    throw RequestError("network input of " + std::to_string(spec_.size) + " pixels: expected a side from 8 to 8192");
+  }
+  if (spec_.marker_side < 1 || spec_.marker_side > spec_.size) {
+    throw RequestError("marker side of " + std::to_string(spec_.marker_side) +
+                       " pixels: expected 1 to the input's side, " + std::to_string(spec_.size));
+  }
+}
+
+InputFit Encoder::encode(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
+                         std::vector<std::uint8_t>& image) const {
+  const Pixel start_pixel = free_pixel(map, start, "start");
+  const Pixel goal_pixel = free_pixel(map, goal, "goal");
+  const InputFit result = fit(spec_.size, part_that_matters(map, start_pixel, goal_pixel));
+  const cv::Mat1b bright = brightness(map, result);
+  const cv::Rect start_marker = marker(result, start_pixel, spec_.marker_side);
+  const cv::Rect goal_marker = marker(result, goal_pixel, spec_.marker_side);
+  const auto plane_size = static_cast<std::size_t>(spec_.size) * static_cast<std::size_t>(spec_.size);
+  image.resize(3 * plane_size);
+  for (std::size_t k = 0; k < 3; ++k) {
+    cv::Mat1b plane(spec_.size, spec_.size, image.data() + k * plane_size);
+    paint(bright, spec_.colours.obstacle[k], spec_.colours.free[k], plane);
+    plane(start_marker) = spec_.colours.start[k];
+    plane(goal_marker) = spec_.colours.goal[k];
+  }
+  return result;
+}
+
+}  // namespace lrrt

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model_info.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "lrrt/error.hpp"
+#include "own_path.hpp"
+
+namespace lrrt {
+namespace {
+
+/// The metadata layout that this library reads.
+constexpr const char* kFormat = "1";
+
+class Reader {
+ public:
+  Reader(const std::filesystem::path& path, const MetadataLookup& lookup) : path_(path), lookup_(lookup) {}
+
+  [[noreturn]] void fail(const std::string& key, const std::string& problem) const {
+    throw ModelError("model " + path_.string() + ": metadata '" + key + "' " + problem +
+                     ". Export the model with this project's training package, which writes it.");
+  }
+
+  std::string text(const std::string& key) const {
+    const std::optional<std::string> value = lookup_(key);
+    if (!value) fail(key, "is missing");
+    return *value;
+  }
+
+  double number(const std::string& key, double low, double high) const {
+    const std::string value = text(key);
+    std::istringstream stream(value);
+    double result = 0.0;
+    if (!(stream >> result) || !stream.eof() || !(result >= low && result <= high)) {
+      std::ostringstream expected;
+      expected << "is '" << value << "', expected a number from " << low << " to " << high;
+      fail(key, expected.str());
+    }
+    return result;
+  }
+
+ private:
+  const std::filesystem::path& path_;
+  const MetadataLookup& lookup_;
+};
+
+std::vector<std::string> split(const std::string& list) {
+  std::vector<std::string> parts;
+  std::istringstream stream(list);
+  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
+  return parts;
+}
+
+Colours read_colours(const Reader& reader) {
+  const std::string text = reader.text("colours");
+  try {
+    const auto json = nlohmann::json::parse(text);
+    const auto colour = [&](const char* key) { return json.at(key).get<Rgb>(); };
+    return {colour("start"), colour("goal"), colour("free"), colour("obstacle"), colour("promising")};
+  } catch (const nlohmann::json::exception& error) {
+    reader.fail("colours", std::string("is not an object of [red, green, blue] lists (") + error.what() + ")");
+  }
+}
+
+}  // namespace
+
+ModelInfo read_model_info(const std::filesystem::path& path, const MetadataLookup& lookup) {
+  const Reader reader(path, lookup);
+  if (reader.text("lrrt_format") != kFormat) {
+    reader.fail("lrrt_format", "is '" + reader.text("lrrt_format") + "', this library reads '" + kFormat + "'");
+  }
+  ModelInfo info;
+  info.path = path;
+  info.name = reader.text("name");
+  info.input.size = static_cast<int>(reader.number("input_size", 8, 8192));
+  info.input.marker_side = static_cast<int>(reader.number("marker_side", 1, info.input.size));
+  info.input.colours = read_colours(reader);
+  info.classes = split(reader.text("classes"));
+  const auto promising = std::find(info.classes.begin(), info.classes.end(), "promising");
+  if (promising == info.classes.end()) {
+    reader.fail("classes", "is '" + reader.text("classes") + "', expected a list with 'promising' in it");
+  }
+  info.promising = static_cast<std::size_t>(promising - info.classes.begin());
+  info.threshold = static_cast<float>(reader.number("threshold", 1e-6, 1.0));
+  info.training_data = reader.text("training_data");
+  info.training_budget = reader.text("training_budget");
+  info.commit = reader.text("commit");
+  return info;
+}
+
+std::filesystem::path default_model_path() {
+  if (const char* chosen = std::getenv("LRRT_MODEL")) return chosen;
+  const std::filesystem::path here = own_path().parent_path();
+  std::vector<std::filesystem::path> places = {here / "models" / "default.onnx",
+                                               here / ".." / "share" / "lrrt" / "models" / "default.onnx"};
+#ifdef LRRT_DEFAULT_MODEL
+  places.emplace_back(LRRT_DEFAULT_MODEL);
+#endif
+  std::string tried;
+  for (const std::filesystem::path& place : places) {
+    std::error_code ignored;
+    if (std::filesystem::exists(place, ignored)) return place.lexically_normal();
+    tried += "\n  " + place.lexically_normal().string();
+  }
+  throw ModelError("the default model is not where it should be. Set LRRT_MODEL to an ONNX file, or name one. Tried:" +
+                   tried);
+}
+
+}  // namespace lrrt

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "lrrt/predict/onnx_predictor.hpp"
+
+#include <algorithm>
+#include <array>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "lrrt/error.hpp"
+#include "lrrt/stopwatch.hpp"
+#include "model_info.hpp"
+#include "onnx_runtime.hpp"
+
+namespace lrrt {
+namespace {
+
+constexpr const char* kInput = "image";
+constexpr const char* kOutput = "probability";
+
+Ort::Env& environment() {
+  static Ort::Env env(ORT_LOGGING_LEVEL_ERROR, "lrrt");
+  return env;
+}
+
+Ort::SessionOptions session_options(const OnnxOptions& options) {
+  const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
+  Ort::SessionOptions result;
+  result.SetIntraOpNumThreads(options.threads > 0 ? options.threads : static_cast<int>(std::min(2U, cores)));
+  result.SetInterOpNumThreads(1);
+  result.SetExecutionMode(ORT_SEQUENTIAL);
+  result.SetGraphOptimizationLevel(ORT_ENABLE_ALL);
+  result.AddConfigEntry("session.intra_op.allow_spinning", options.spinning ? "1" : "0");
+  return result;
+}
+
+std::string shape_text(const std::vector<std::int64_t>& shape) {
+  std::string text = "[";
+  for (const std::int64_t side : shape) text += (text.size() > 1 ? ", " : "") + std::to_string(side);
+  return text + "]";
+}
+
+/// Checks one input or output against the contract; -1 stands for any batch size.
+void check_tensor(const ModelInfo& info, const Ort::TypeInfo& type, const char* name, ONNXTensorElementDataType element,
+                  std::int64_t channels) {
+  if (type.GetONNXType() != ONNX_TYPE_TENSOR)
+    throw ModelError("model " + info.path.string() + ": '" + name + "' is not a tensor");
+  const auto tensor = type.GetTensorTypeAndShapeInfo();
+  const std::vector<std::int64_t> shape = tensor.GetShape();
+  const std::int64_t side = info.input.size;
+  const bool fits = shape.size() == 4 && (shape[0] == -1 || shape[0] == 1) && shape[1] == channels &&
+                    shape[2] == side && shape[3] == side;
+  if (!fits || tensor.GetElementType() != element) {
+    throw ModelError("model " + info.path.string() + ": '" + name + "' has shape " + shape_text(shape) +
+                     " and element type " + std::to_string(tensor.GetElementType()) + ", expected " +
+                     shape_text({-1, channels, side, side}) + " and type " + std::to_string(element) +
+                     ". Its metadata and its graph do not belong together.");
+  }
+}
+
+void check_name(const ModelInfo& info, std::size_t count, const Ort::AllocatedStringPtr& name, const char* expected) {
+  if (count == 1 && std::string(name.get()) == expected) return;
+  throw ModelError("model " + info.path.string() + " has " + std::to_string(count) + " tensors, the first named '" +
+                   name.get() + "', where exactly one named '" + expected + "' is expected");
+}
+
+}  // namespace
+
+/// The loaded model and the buffers of the calls under way.
+class OnnxPredictor::Session {
+ public:
+  /// Buffers of one call. The tensors are views of the vectors, so a workspace never moves.
+  struct Workspace {
+    Workspace(const ModelInfo& info, const OrtMemoryInfo* memory)
+        : image(3 * plane(info)),
+          probability(info.classes.size() * plane(info)),
+          input_shape{1, 3, info.input.size, info.input.size},
+          output_shape{1, static_cast<std::int64_t>(info.classes.size()), info.input.size, info.input.size},
+          input(Ort::Value::CreateTensor<std::uint8_t>(memory, image.data(), image.size(), input_shape.data(), 4)),
+          output(Ort::Value::CreateTensor<float>(memory, probability.data(), probability.size(), output_shape.data(),
+                                                 4)) {}
+    Workspace(const Workspace&) = delete;
+    Workspace& operator=(const Workspace&) = delete;
+
+    static std::size_t plane(const ModelInfo& info) {
+      return static_cast<std::size_t>(info.input.size) * static_cast<std::size_t>(info.input.size);
+    }
+
+    std::vector<std::uint8_t> image;
+    std::vector<float> probability;
+    std::array<std::int64_t, 4> input_shape;
+    std::array<std::int64_t, 4> output_shape;
+    Ort::Value input;
+    Ort::Value output;
+  };
+
+  Session(const std::filesystem::path& path, const OnnxOptions& options)
+      : session_(environment(), path.c_str(), session_options(options)),
+        memory_(Ort::MemoryInfo::CreateCpu(OrtArenaAllocator, OrtMemTypeDefault)),
+        info_(read_info(path)),
+        encoder_(info_.input) {
+    Ort::AllocatorWithDefaultOptions allocator;
+    check_name(info_, session_.GetInputCount(), session_.GetInputNameAllocated(0, allocator), kInput);
+    check_name(info_, session_.GetOutputCount(), session_.GetOutputNameAllocated(0, allocator), kOutput);
+    check_tensor(info_, session_.GetInputTypeInfo(0), kInput, ONNX_TENSOR_ELEMENT_DATA_TYPE_UINT8, 3);
+    check_tensor(info_, session_.GetOutputTypeInfo(0), kOutput, ONNX_TENSOR_ELEMENT_DATA_TYPE_FLOAT,
+                 static_cast<std::int64_t>(info_.classes.size()));
+  }
+
+  const ModelInfo& info() const { return info_; }
+
+  Prediction predict(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal) {
+    std::unique_ptr<Workspace> workspace = borrow();
+    PredictTimings timings;
+    Stopwatch watch;
+    const InputFit fit = encoder_.encode(map, start, goal, workspace->image);
+    timings.encode = watch.lap_ms();
+    session_.Run(Ort::RunOptions{nullptr}, &kInput, &workspace->input, 1, &kOutput, &workspace->output, 1);
+    timings.infer = watch.lap_ms();
+    const float* promising = workspace->probability.data() + info_.promising * Workspace::plane(info_);
+    PromisingRegion region(map, fit.to_map(promising, map.width(), map.height()),
+                           OccupancyMap::pixel_of(map.to_pixel(start)), OccupancyMap::pixel_of(map.to_pixel(goal)),
+                           info_.threshold);
+    give_back(std::move(workspace));
+    timings.region = watch.lap_ms();
+    return {std::move(region), timings};
+  }
+
+ private:
+  ModelInfo read_info(const std::filesystem::path& path) {
+    const Ort::ModelMetadata metadata = session_.GetModelMetadata();
+    Ort::AllocatorWithDefaultOptions allocator;
+    ModelInfo info = read_model_info(path, [&](const std::string& key) -> std::optional<std::string> {
+      const auto value = metadata.LookupCustomMetadataMapAllocated(key.c_str(), allocator);
+      if (!value) return std::nullopt;
+      return std::string(value.get());
+    });
+    info.runtime_version = open_onnx_runtime();
+    return info;
+  }
+
+  std::unique_ptr<Workspace> borrow() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (!idle_.empty()) {
+        std::unique_ptr<Workspace> workspace = std::move(idle_.back());
+        idle_.pop_back();
+        return workspace;
+      }
+    }
+    return std::make_unique<Workspace>(info_, memory_);
+  }
+
+  void give_back(std::unique_ptr<Workspace> workspace) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    idle_.push_back(std::move(workspace));
+  }
+
+  Ort::Session session_;
+  Ort::MemoryInfo memory_;
+  ModelInfo info_;
+  Encoder encoder_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Workspace>> idle_;
+};
+
+OnnxPredictor::OnnxPredictor(const std::filesystem::path& model, OnnxOptions options) {
+  if (!std::filesystem::is_regular_file(model)) {
+    throw ModelError("model " + model.string() +
+                     " does not exist or is not a file: name an ONNX file exported by the training package");
+  }
+  open_onnx_runtime();
+  try {
+    session_ = std::make_unique<Session>(model, options);
+  } catch (const Ort::Exception& error) {
+    throw ModelError("model " + model.string() + " cannot be loaded by ONNX Runtime: " + error.what());
+  }
+}
+
+OnnxPredictor::~OnnxPredictor() = default;
+OnnxPredictor::OnnxPredictor(OnnxPredictor&&) noexcept = default;
+OnnxPredictor& OnnxPredictor::operator=(OnnxPredictor&&) noexcept = default;
+
+const ModelInfo& OnnxPredictor::info() const {
+  return session_->info();
+}
+
+Prediction OnnxPredictor::predict(const OccupancyMap& map, const Eigen::Vector2d& start,
+                                  const Eigen::Vector2d& goal) const {
+  try {
+    return session_->predict(map, start, goal);
+  } catch (const Ort::Exception& error) {
+    throw ModelError("model " + info().path.string() + " failed: " + error.what());
+  }
+}
+
+}  // namespace lrrt

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The runtime is opened by hand, so that one binary runs with any version that is new enough (its symbols are
+// versioned).
+#define ORT_API_MANUAL_INIT
+#include <onnxruntime_cxx_api.h>
+#undef ORT_API_MANUAL_INIT
+
+#include <string>
+
+namespace lrrt {
+
+/// Opens ONNX Runtime on the first call, for the whole process. @return its version.
+/// @throws ModelError that lists the places tried when none holds a usable library.
+const std::string& open_onnx_runtime();
+
+}  // namespace lrrt
