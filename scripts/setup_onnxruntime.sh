@@ -12,8 +12,12 @@ deb_path=pool/main/o/onnxruntime/libonnxruntime-dev_1.21.0+dfsg-1_amd64.deb
 deb_sha256=14f7d959d5deacbcf1504830d4189f91fc67382b399ed9ae9d3aa9c4050ced08
 
 wheel_version=1.31.1
-wheel_sha256_x86_64=5752bd508126ae7c49894d3b9d2e83f0c3d487319246d04c444b393308d7ad7f
-wheel_sha256_aarch64=da05378364c44d4407e463982d2bf8d5e4cfea873283757e48beeb41df97b7f3
+arch="$(uname -m)"
+case "$arch" in
+  x86_64) wheel_sha256=5752bd508126ae7c49894d3b9d2e83f0c3d487319246d04c444b393308d7ad7f ;;
+  aarch64) wheel_sha256=da05378364c44d4407e463982d2bf8d5e4cfea873283757e48beeb41df97b7f3 ;;
+  *) wheel_sha256= ;;
+esac
 
 npm_name=com.github.asus4.onnxruntime
 npm_version=0.4.9
@@ -22,7 +26,6 @@ npm_sha256=e59788788818fdde1b2e522e766a21ba0f7d8391de55737abf81e32cc801785d
 target="$deps/onnxruntime"
 cache="$deps/downloads"
 log="$cache/download.log"
-arch="$(uname -m)"
 
 # fetch_checked FILE SHA256 COMMAND...: COMMAND must write FILE.part; it becomes FILE only if its checksum holds.
 fetch_checked() {
@@ -39,6 +42,7 @@ fetch_checked() {
 
 # The roots of the Debian archive in this machine's own apt configuration.
 debian_mirrors() {
+  # shellcheck disable=SC2016  # apt-get expands this itself
   apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Origin: Debian' 2>/dev/null | sort -u
 }
 
@@ -82,18 +86,16 @@ headers_from_npm() {
   say "ONNX Runtime headers: not on this machine's apt mirror; from the npm package $npm_name (150 MB)"
   fetch_checked "$cache/both.tgz" "$npm_sha256" download_npm || return 1
   mkdir "$new/npm"
-  tar -xzf "$cache/both.tgz" -C "$new/npm" --wildcards '*/xcframework/ios-arm64/*/Headers/*' 2>/dev/null ||
-    tar -xzf "$cache/both.tgz" -C "$new/npm" --wildcards '*ios-arm64/*Headers/*'
+  tar -xzf "$cache/both.tgz" -C "$new/npm" --wildcards '*/ios-arm64/*/Headers/*'
   mv "$(dirname "$(find "$new/npm" -name onnxruntime_cxx_api.h -print -quit)")" "$new/include"
   rm -rf "$new/npm"
 }
 
 library_from_wheel() {
-  local sha256_name="wheel_sha256_$arch" python="$venv/bin/python"
-  [ -n "${!sha256_name:-}" ] || return 1
+  local python="$venv/bin/python"
   [ -x "$python" ] || python=python3
   say "ONNX Runtime library $wheel_version: from its Python wheel (24 MB)"
-  fetch_checked "$cache/library.whl" "${!sha256_name}" download_wheel || return 1
+  fetch_checked "$cache/library.whl" "$wheel_sha256" download_wheel || return 1
   "$python" -m zipfile -e "$cache/library.whl" "$new/wheel"
   mkdir "$new/lib"
   mv "$new/wheel/onnxruntime/capi/libonnxruntime.so.$wheel_version" "$new/lib/"
@@ -119,7 +121,10 @@ fi
 want="$(fingerprint "$deb_sha256" "$wheel_version" "$npm_sha256" "$arch")"
 [ -e "$target/lib/libonnxruntime.so" ] && is_current onnxruntime "$want" && exit 0
 
+[ -n "$wheel_sha256" ] || die "no ONNX Runtime is pinned for the processor type $arch." \
+  "Install ONNX Runtime 1.21 or newer and set ONNXRUNTIME_ROOT to the folder with its include/ and lib/."
 mkdir -p "$cache"
+rm -rf "$deps"/tmp.* "$cache"/tmp.*  # left by an interrupted run
 : >"$log"
 new="$(mktemp -d -p "$deps")"
 trap 'rm -rf "$new"' EXIT
