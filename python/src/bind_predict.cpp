@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <optional>
+
 #include "bindings.hpp"
 #include "lrrt/error.hpp"
 #include "lrrt/predict/encoder.hpp"
+#include "lrrt/predict/onnx_predictor.hpp"
+#include "lrrt/region/picture.hpp"
 
 namespace lrrt::python {
 namespace {
@@ -89,10 +93,119 @@ void bind_encoder(py::module_& module) {
            "Encodes a query; `start` and `goal` in map units. Raises RequestError when one is not on a free pixel.");
 }
 
+template <typename T>
+py::array region_view(const py::object& self, const std::vector<T>& values, const py::dtype& type) {
+  const auto& region = self.cast<const PromisingRegion&>();
+  py::array view(type, {region.height(), region.width()}, values.data(), self);
+  view.attr("setflags")(py::arg("write") = false);
+  return view;
+}
+
+py::array_t<std::uint8_t> picture(const PromisingRegion& region, const OccupancyMap& map) {
+  return to_array(rgb_picture(map, region), {map.height(), map.width(), 3});
+}
+
+PromisingRegion region_from_array(const OccupancyMap& map, const DenseArray<float>& probability,
+                                  const Eigen::Vector2d& start, const Eigen::Vector2d& goal, float threshold) {
+  check_shape(probability, map.height(), map.width(), "a region takes one probability per pixel of the map");
+  return PromisingRegion(map, {probability.data(), probability.data() + probability.size()},
+                         OccupancyMap::pixel_of(map.to_pixel(start)), OccupancyMap::pixel_of(map.to_pixel(goal)),
+                         threshold);
+}
+
+void bind_region(py::module_& module) {
+  py::class_<PromisingRegion, std::shared_ptr<PromisingRegion>>(module, "PromisingRegion",
+                                                                "Where a path probably lies, over the pixels of a map.")
+      .def_static("from_array", &region_from_array, py::arg("map"), py::arg("probability"), py::arg("start"),
+                  py::arg("goal"), py::arg("threshold") = 0.5F,
+                  "Region from an (H, W) array of probabilities; `start` and `goal` in map units decide `connected`.")
+      .def_property_readonly(
+          "probability",
+          [](const py::object& self) {
+            return region_view(self, self.cast<const PromisingRegion&>().probability(), py::dtype::of<float>());
+          },
+          "(H, W) float32 view, read-only: probability of the promising class.")
+      .def_property_readonly(
+          "mask",
+          [](const py::object& self) {
+            return region_view(self, self.cast<const PromisingRegion&>().mask(), py::dtype::of<bool>());
+          },
+          "(H, W) bool view, read-only: free and promising.")
+      .def_property_readonly("connected", &PromisingRegion::connected,
+                             "True when start and goal are joined inside the mask.")
+      .def_property_readonly("area", &PromisingRegion::area, "Number of pixels in the mask.")
+      .def("picture", &picture, py::arg("map"), "(H, W, 3) uint8 picture: the map with the region in green.");
+}
+
+void bind_model_info(py::module_& module) {
+  py::class_<ModelInfo>(module, "ModelInfo", "What an ONNX file says about the model in it.")
+      .def_property_readonly(
+          "path", [](const ModelInfo& info) { return info.path; }, "The file.")
+      .def_readonly("name", &ModelInfo::name, "Name of the model.")
+      .def_property_readonly(
+          "input_size", [](const ModelInfo& info) { return info.input.size; }, "Side of the input, pixels.")
+      .def_property_readonly(
+          "marker_side", [](const ModelInfo& info) { return info.input.marker_side; },
+          "Least side of the start and goal squares, input pixels.")
+      .def_readonly("classes", &ModelInfo::classes, "Names of the classes in output order.")
+      .def_readonly("threshold", &ModelInfo::threshold, "A pixel is promising from this probability on.")
+      .def_readonly("training_data", &ModelInfo::training_data, "What the model was trained on.")
+      .def_readonly("training_budget", &ModelInfo::training_budget, "How long it was trained, on what.")
+      .def_readonly("commit", &ModelInfo::commit, "Commit of the training code.")
+      .def_readonly("runtime_version", &ModelInfo::runtime_version, "Version of the ONNX Runtime in use.");
+}
+
+std::shared_ptr<OnnxPredictor> load_predictor(const std::optional<std::filesystem::path>& model, int threads,
+                                              bool spinning) {
+  return std::make_shared<OnnxPredictor>(model ? *model : default_model_path(), OnnxOptions{threads, spinning});
+}
+
+void bind_predictors(py::module_& module) {
+  py::class_<RegionPredictor, std::shared_ptr<RegionPredictor>>(module, "RegionPredictor",
+                                                                "Marks where a path probably lies.")
+      .def(
+          "predict",
+          [](const RegionPredictor& predictor, const OccupancyMap& map, const Eigen::Vector2d& start,
+             const Eigen::Vector2d& goal) {
+            return std::make_shared<PromisingRegion>(predictor.predict(map, start, goal).region);
+          },
+          py::arg("map"), py::arg("start"), py::arg("goal"), py::call_guard<py::gil_scoped_release>(),
+          "The promising region of a query; `start` and `goal` in map units, on free pixels. Raises RequestError, "
+          "ModelError.")
+      .def(
+          "predict_timed",
+          [](const RegionPredictor& predictor, const OccupancyMap& map, const Eigen::Vector2d& start,
+             const Eigen::Vector2d& goal) {
+            std::optional<Prediction> prediction;
+            {
+              const py::gil_scoped_release release;
+              prediction = predictor.predict(map, start, goal);
+            }
+            py::dict timings;
+            timings["encode"] = prediction->timings.encode;
+            timings["infer"] = prediction->timings.infer;
+            timings["region"] = prediction->timings.region;
+            return py::make_tuple(std::make_shared<PromisingRegion>(std::move(prediction->region)), timings);
+          },
+          py::arg("map"), py::arg("start"), py::arg("goal"),
+          "As predict(), and the milliseconds of its stages: (region, {encode, infer, region}).");
+
+  py::class_<OnnxPredictor, RegionPredictor, std::shared_ptr<OnnxPredictor>>(
+      module, "OnnxPredictor", "Runs an ONNX model; one object serves any number of threads at once.")
+      .def(py::init(&load_predictor), py::arg("model") = py::none(), py::arg("threads") = 0,
+           py::arg("spinning") = false,
+           "Loads a model: a path, or None for the one that ships. `threads`: 0 chooses two (one on a single core).\n\n"
+           "Raises ModelError when the file or ONNX Runtime cannot be loaded, or the metadata do not fit.")
+      .def_property_readonly("info", &OnnxPredictor::info, "What the file says about the model.");
+}
+
 }  // namespace
 
 void bind_predict(py::module_& module) {
   bind_encoder(module);
+  bind_region(module);
+  bind_model_info(module);
+  bind_predictors(module);
 }
 
 }  // namespace lrrt::python

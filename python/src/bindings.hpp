@@ -5,6 +5,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <cstring>
 #include <utility>
@@ -16,6 +17,7 @@ namespace py = pybind11;
 
 /// Each room of the library adds its own names to the module.
 void bind_map(py::module_& module);
+void bind_read_map(py::module_& module);
 void bind_predict(py::module_& module);
 void bind_planner(py::module_& module);
 

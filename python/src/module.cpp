@@ -12,5 +12,7 @@ PYBIND11_MODULE(_core, module) {
   py::register_exception<lrrt::RequestError>(module, "RequestError", error.ptr());
 
   lrrt::python::bind_map(module);
+  lrrt::python::bind_read_map(module);
   lrrt::python::bind_predict(module);
+  lrrt::python::bind_planner(module);
 }

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <chrono>
+#include <future>
+#include <optional>
+
+#include "bindings.hpp"
+#include "lrrt/error.hpp"
+#include "lrrt/ompl/planners.hpp"
+#include "lrrt/planner.hpp"
+
+namespace lrrt::python {
+namespace {
+
+/// Plans in a second thread while this one looks for Python's signals, so that Ctrl-C ends a long search at once.
+PlanResult plan_interruptibly(const Planner& planner, const PlanRequest& request) {
+  using std::chrono_literals::operator""ms;
+  CancelToken cancel = planner.options().cancel;
+  std::future<PlanResult> future;
+  const auto ready = [&] {
+    const py::gil_scoped_release release;
+    return future.wait_for(20ms) == std::future_status::ready;
+  };
+  future = std::async(std::launch::async, [&] { return planner.plan(request); });
+  while (!ready()) {
+    if (PyErr_CheckSignals() == 0) continue;
+    cancel.cancel();
+    {
+      const py::gil_scoped_release release;
+      future.wait();
+    }
+    throw py::error_already_set();
+  }
+  return future.get();
+}
+
+UnknownIs unknown_from(const std::string& word) {
+  if (word == "occupied") return UnknownIs::occupied;
+  if (word == "free") return UnknownIs::free;
+  throw RequestError("unknown='" + word + "': expected 'occupied' or 'free'");
+}
+
+PlanResult plan(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
+                const std::string& planner, const std::string& strategy, double alpha,
+                std::shared_ptr<RegionPredictor> predictor, const std::string& stop, double cost_factor,
+                double time_limit, std::optional<std::size_t> iteration_limit, double range, double goal_bias,
+                double goal_tolerance, double radius, const std::string& unknown, std::uint64_t seed, bool keep_tree,
+                const std::optional<CancelToken>& cancel) {
+  PlanOptions options;
+  options.planner = planner;
+  options.strategy = strategy_from_string(strategy);
+  options.alpha = alpha;
+  options.range = range;
+  options.goal_bias = goal_bias;
+  options.goal_tolerance = goal_tolerance;
+  options.stop = stop_from_string(stop);
+  options.cost_factor = cost_factor;
+  options.time_limit = time_limit;
+  if (iteration_limit) options.iteration_limit = *iteration_limit;
+  options.seed = seed;
+  options.keep_tree = keep_tree;
+  if (cancel) options.cancel = *cancel;
+  return plan_interruptibly(Planner(std::move(predictor), options), {map, start, goal, radius, unknown_from(unknown)});
+}
+
+py::array_t<double> points_array(const std::vector<Eigen::Vector2d>& points) {
+  std::vector<double> flat;
+  flat.reserve(2 * points.size());
+  for (const Eigen::Vector2d& p : points) flat.insert(flat.end(), {p.x(), p.y()});
+  return to_array(std::move(flat), {static_cast<py::ssize_t>(points.size()), 2});
+}
+
+py::array_t<double> history_array(const PlanResult& result) {
+  std::vector<double> flat;
+  for (const CostStep& step : result.cost_history) {
+    flat.insert(flat.end(), {step.time, static_cast<double>(step.iteration), step.cost});
+  }
+  return to_array(std::move(flat), {static_cast<py::ssize_t>(result.cost_history.size()), 3});
+}
+
+py::array_t<double> tree_array(const PlanResult& result) {
+  std::vector<double> flat;
+  flat.reserve(4 * result.tree.size());
+  for (const TreeEdge& edge : result.tree)
+    flat.insert(flat.end(), {edge.from.x(), edge.from.y(), edge.to.x(), edge.to.y()});
+  return to_array(std::move(flat), {static_cast<py::ssize_t>(result.tree.size()), 4});
+}
+
+py::dict timings_dict(const PlanTimings& timings) {
+  py::dict result;
+  result["prepare"] = timings.prepare;
+  result["encode"] = timings.encode;
+  result["infer"] = timings.infer;
+  result["region"] = timings.region;
+  result["plan"] = timings.plan;
+  result["total"] = timings.total;
+  return result;
+}
+
+py::dict draws_dict(const DrawCounts& draws) {
+  py::dict result;
+  result["guided"] = draws.guided;
+  result["uniform"] = draws.uniform;
+  return result;
+}
+
+void bind_result(py::module_& module) {
+  py::class_<PlanResult>(module, "PlanResult", "What came out of plan().")
+      .def_property_readonly(
+          "status", [](const PlanResult& r) { return to_string(r.status); },
+          "solved, start_outside, goal_outside, start_occupied, goal_occupied, not_connected, time_limit, "
+          "iteration_limit or cancelled.")
+      .def_property_readonly("solved", &PlanResult::solved, "True when a free path was found.")
+      .def_property_readonly(
+          "path", [](const PlanResult& r) { return points_array(r.path); },
+          "(N, 2) float64, map units, from start to goal; (0, 2) unless solved.")
+      .def_readonly("cost", &PlanResult::cost, "Length of the path, map units; inf unless solved.")
+      .def_readonly("iterations", &PlanResult::iterations, "Iterations of the planner.")
+      .def_readonly("nodes", &PlanResult::nodes, "Nodes in the planner's tree.")
+      .def_property_readonly(
+          "draws", [](const PlanResult& r) { return draws_dict(r.draws); },
+          "Samples drawn: {'guided': from the region, 'uniform': from the whole map}.")
+      .def_property_readonly("cost_history", &history_array,
+                             "(K, 3) float64: milliseconds, iteration and cost of every better path.")
+      .def_property_readonly("tree", &tree_array, "(M, 4) float64, map units: x0, y0, x1, y1; with keep_tree=True.")
+      .def_property_readonly(
+          "region",
+          [](const PlanResult& r) {
+            return r.promising ? std::make_shared<PromisingRegion>(*r.promising) : std::shared_ptr<PromisingRegion>();
+          },
+          "The promising region that was used, or None.")
+      .def_property_readonly(
+          "timings", [](const PlanResult& r) { return timings_dict(r.timings); },
+          "Milliseconds of each stage: prepare, encode, infer, region, plan, total.")
+      .def("__repr__", [](const PlanResult& r) {
+        return std::string("PlanResult(") + to_string(r.status) + ", cost=" + std::to_string(r.cost) +
+               ", iterations=" + std::to_string(r.iterations) + ", nodes=" + std::to_string(r.nodes) + ")";
+      });
+}
+
+}  // namespace
+
+void bind_planner(py::module_& module) {
+  silence_ompl();
+  py::class_<CancelToken>(module, "CancelToken", "Ends a search from another thread.")
+      .def(py::init<>())
+      .def("cancel", &CancelToken::cancel, "Asks the search to stop as soon as it can.")
+      .def_property_readonly("cancelled", &CancelToken::cancelled, "True once cancel() was called.");
+  bind_result(module);
+  module.def("planner_names", &planner_names, "Names that plan() accepts as `planner`.");
+  const PlanOptions defaults;
+  module.def("plan", &plan, py::arg("map"), py::arg("start"), py::arg("goal"), py::kw_only(),
+             py::arg("planner") = defaults.planner, py::arg("strategy") = "region", py::arg("alpha") = defaults.alpha,
+             py::arg("predictor") = py::none(), py::arg("stop") = "first",
+             py::arg("cost_factor") = defaults.cost_factor, py::arg("time_limit") = defaults.time_limit,
+             py::arg("iteration_limit") = py::none(), py::arg("range") = defaults.range,
+             py::arg("goal_bias") = defaults.goal_bias, py::arg("goal_tolerance") = defaults.goal_tolerance,
+             py::arg("radius") = 0.0, py::arg("unknown") = "occupied", py::arg("seed") = defaults.seed,
+             py::arg("keep_tree") = false, py::arg("cancel") = py::none(),
+             "Plans a path. See lrrt.plan, which adds the default predictor.");
+}
+
+}  // namespace lrrt::python
