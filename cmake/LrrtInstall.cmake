@@ -14,11 +14,12 @@ endif()
 install(TARGETS ${lrrt_libraries} EXPORT lrrtTargets)
 install(DIRECTORY include/lrrt "${PROJECT_BINARY_DIR}/include/lrrt" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
   FILES_MATCHING PATTERN "*.hpp")
-install(FILES models/default.onnx DESTINATION "${CMAKE_INSTALL_DATADIR}/lrrt/models" OPTIONAL)
+install(FILES models/default.onnx DESTINATION "${CMAKE_INSTALL_DATADIR}/lrrt/models")
 lrrt_install_onnxruntime("${CMAKE_INSTALL_LIBDIR}" "${CMAKE_INSTALL_DATADIR}/lrrt/licenses")
 
+set(LRRT_MODEL "${CMAKE_INSTALL_DATADIR}/lrrt/models/default.onnx")
 configure_package_config_file(cmake/lrrtConfig.cmake.in "${PROJECT_BINARY_DIR}/lrrtConfig.cmake"
-  INSTALL_DESTINATION "${package_dir}")
+  INSTALL_DESTINATION "${package_dir}" PATH_VARS LRRT_MODEL)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/lrrtConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES
   "${PROJECT_BINARY_DIR}/lrrtConfig.cmake"
