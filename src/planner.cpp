@@ -32,6 +32,7 @@ void check(const PlanOptions& options) {
   if (!finite_from(options.goal_tolerance, 0.0))
     refuse("goal_tolerance", options.goal_tolerance, "0 or a positive length in map units");
   if (!finite_from(options.cost_factor, 1.0)) refuse("cost_factor", options.cost_factor, "at least 1");
+  check_planner_name(options.planner);
   if (!(options.time_limit > 0.0)) refuse("time_limit", options.time_limit, "a positive number of seconds");
 }
 
@@ -74,6 +75,17 @@ MixedSampler sampler_for(const OccupancyMap& map, const std::optional<PromisingR
   return {std::move(guided), UniformStrategy(map.width(), map.height()), options.alpha, options.seed};
 }
 
+/// The result of a query that ends where it starts; OMPL's planners take the goal for one more state to be reached.
+PlanResult arrived(const PlanRequest& request, const Stopwatch& watch) {
+  PlanResult result;
+  result.status = PlanStatus::solved;
+  result.path = {request.start, request.start};
+  result.cost = 0.0;
+  result.cost_history = {{0.0, 0, 0.0}};
+  result.timings.prepare = result.timings.total = watch.total_ms();
+  return result;
+}
+
 }  // namespace
 
 Planner::Planner(std::shared_ptr<const RegionPredictor> predictor, PlanOptions options)
@@ -94,6 +106,9 @@ PlanResult Planner::plan(const PlanRequest& request) const {
     result.status = *status;
     result.timings.prepare = result.timings.total = watch.total_ms();
     return result;
+  }
+  if ((request.goal - request.start).norm() <= options_.goal_tolerance) {
+    return arrived(request, watch);
   }
   const auto collision = std::make_shared<const CollisionMap>(std::move(map));
   result.timings.prepare = watch.total_ms();

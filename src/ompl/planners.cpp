@@ -63,14 +63,16 @@ const std::vector<std::string>& planner_names() {
   return names;
 }
 
+void check_planner_name(const std::string& name) {
+  if (makers().count(name) != 0) return;
+  std::string known;
+  for (const std::string& entry : planner_names()) known += (known.empty() ? "" : ", ") + entry;
+  throw RequestError("unknown planner '" + name + "': expected one of " + known);
+}
+
 MapPlanner make_planner(const std::string& name, const ob::SpaceInformationPtr& si, const PlannerSettings& settings) {
-  const auto found = makers().find(name);
-  if (found == makers().end()) {
-    std::string known;
-    for (const std::string& entry : planner_names()) known += (known.empty() ? "" : ", ") + entry;
-    throw RequestError("unknown planner '" + name + "': expected one of " + known);
-  }
-  return found->second(si, settings);
+  check_planner_name(name);
+  return makers().at(name)(si, settings);
 }
 
 }  // namespace lrrt

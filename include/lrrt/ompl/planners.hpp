@@ -26,9 +26,12 @@ struct MapPlanner {
 /// Names that make_planner() knows, as OMPL spells them.
 const std::vector<std::string>& planner_names();
 
+/// @throws RequestError for a name that make_planner() does not know; the text lists the known ones.
+void check_planner_name(const std::string& name);
+
 /// Makes an OMPL planner by name. RRT* rewires within a shrinking disc (Karaman and Frazzoli 2011), as the paper's
 /// does.
-/// @throws RequestError for an unknown name; the text lists the known ones.
+/// @throws RequestError as check_planner_name().
 MapPlanner make_planner(const std::string& name, const ompl::base::SpaceInformationPtr& si,
                         const PlannerSettings& settings);
 

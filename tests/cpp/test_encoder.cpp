@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "lrrt/error.hpp"
+#include "lrrt/predict/encoder.hpp"
+#include "support.hpp"
+
+namespace lrrt {
+namespace {
+
+/// A room of free pixels with a border of walls.
+OccupancyMap room(int width, int height) {
+  std::vector<Cell> cells(static_cast<std::size_t>(width * height), Cell::occupied);
+  for (int r = 1; r < height - 1; ++r) {
+    for (int c = 1; c < width - 1; ++c) cells[static_cast<std::size_t>(r * width + c)] = Cell::free;
+  }
+  return {width, height, std::move(cells)};
+}
+
+Rgb pixel_at(const std::vector<std::uint8_t>& image, int size, int c, int r) {
+  const auto plane = static_cast<std::size_t>(size * size);
+  const auto i = static_cast<std::size_t>(r * size + c);
+  return {image[i], image[plane + i], image[2 * plane + i]};
+}
+
+TEST(Encoder, PaintsThePapersColoursAndOneBlockPerMarker) {
+  std::vector<std::uint8_t> image;
+  const InputFit fit = Encoder({64, 5, {}}).encode(room(8, 8), {1.5, 1.5}, {6.5, 5.5}, image);
+  EXPECT_EQ(fit.scale, 8.0);
+  const Colours colours;
+  EXPECT_EQ(pixel_at(image, 64, 0, 0), colours.obstacle);
+  EXPECT_EQ(pixel_at(image, 64, 3 * 8, 3 * 8), colours.free);
+  for (const int offset : {0, 7}) {
+    EXPECT_EQ(pixel_at(image, 64, 8 + offset, 8 + offset), colours.start);
+    EXPECT_EQ(pixel_at(image, 64, 48 + offset, 40 + offset), colours.goal);
+  }
+  const auto red = std::count(image.begin(), image.begin() + 64 * 64, 255);
+  EXPECT_EQ(red, 36 * 64 - 64);  // every free pixel but the goal's block has full red
+  EXPECT_EQ(pixel_at(image, 64, 16, 8), colours.free);
+}
+
+TEST(Encoder, SmallPixelsGetAMarkerOfTheStatedSide) {
+  std::vector<std::uint8_t> image;
+  Encoder({64, 5, {}}).encode(room(60, 60), {30.5, 30.5}, {10.5, 10.5}, image);
+  int marked = 0;
+  for (int r = 0; r < 64; ++r) {
+    for (int c = 0; c < 64; ++c) marked += static_cast<int>(pixel_at(image, 64, c, r) == Colours{}.start);
+  }
+  EXPECT_EQ(marked, 25);
+}
+
+TEST(Encoder, CropsToTheComponentThatMatters) {
+  std::vector<std::string> rows(40, std::string(100, '?'));
+  for (int r = 10; r < 20; ++r) rows[static_cast<std::size_t>(r)].replace(50, 10, "..........");
+  rows[35][3] = '.';  // a free pixel that cannot be reached
+  std::vector<std::uint8_t> image;
+  const InputFit fit = Encoder({64, 5, {}}).encode(test::map_from_rows(rows), {50.5, 10.5}, {59.5, 19.5}, image);
+  EXPECT_EQ(fit.crop.c, 49);
+  EXPECT_EQ(fit.crop.r, 9);
+  EXPECT_EQ(fit.crop.width, 12);
+  EXPECT_EQ(fit.scale, 5.0);
+}
+
+TEST(Encoder, ThinPassagesSurviveScalingDown) {
+  std::vector<std::string> rows(400, std::string(400, '#'));
+  for (int c = 0; c < 400; ++c) rows[200][static_cast<std::size_t>(c)] = '.';
+  for (int r = 0; r < 400; ++r) rows[static_cast<std::size_t>(r)][0] = '.';
+  std::vector<std::uint8_t> image;
+  const InputFit fit = Encoder({64, 3, {}}).encode(test::map_from_rows(rows), {0.5, 0.5}, {399.5, 200.5}, image);
+  EXPECT_LT(fit.scale, 1.0);
+  const int row = fit.placed.r + static_cast<int>(200.5 * fit.scale);
+  for (int c = 8; c < 56; ++c) EXPECT_GT(pixel_at(image, 64, c, row)[1], 10) << c;
+}
+
+TEST(Encoder, AnySizeAndAspectRatioFits) {
+  Random random(31);
+  std::vector<std::uint8_t> image;
+  for (int i = 0; i < 300; ++i) {
+    const OccupancyMap map = test::random_map(random, 1, i % 10 == 0 ? 700 : 90);
+    const Eigen::Vector2d start = test::random_free_point(map, random);
+    const Eigen::Vector2d goal = test::random_free_point(map, random);
+    const InputFit fit = Encoder({64, 5, {}}).encode(map, start, goal, image);
+    ASSERT_EQ(image.size(), 3U * 64 * 64);
+    EXPECT_GE(fit.placed.c, 0);
+    EXPECT_GE(fit.placed.r, 0);
+    EXPECT_LE(fit.placed.c + fit.placed.width, 64);
+    EXPECT_LE(fit.placed.r + fit.placed.height, 64);
+    EXPECT_TRUE(fit.placed.width > 56 || fit.placed.height > 56 || fit.scale >= 1.0);
+  }
+}
+
+TEST(Encoder, TheWayBackUndoesTheWayIn) {
+  Random random(32);
+  std::vector<std::uint8_t> image;
+  for (int i = 0; i < 50; ++i) {
+    const OccupancyMap map = test::random_map(random, 4, 60);  // enlarged or copied, never scaled down
+    const Eigen::Vector2d point = test::random_free_point(map, random);
+    const InputFit fit = Encoder({64, 5, {}}).encode(map, point, point, image);
+    std::vector<std::uint8_t> values(map.size());
+    for (std::uint8_t& value : values) value = static_cast<std::uint8_t>(random.index(200));
+    const std::vector<std::uint8_t> input = fit.to_input(values, map.width(), 255);
+    const std::vector<float> plane(input.begin(), input.end());
+    const std::vector<float> back = fit.to_map(plane.data(), map.width(), map.height());
+    for (int r = 0; r < map.height(); ++r) {
+      for (int c = 0; c < map.width(); ++c) {
+        const bool shown =
+            c >= fit.crop.c && c < fit.crop.c + fit.crop.width && r >= fit.crop.r && r < fit.crop.r + fit.crop.height;
+        ASSERT_NEAR(back[map.index({c, r})], shown ? static_cast<float>(values[map.index({c, r})]) : 0.0F, 1e-3F);
+      }
+    }
+  }
+}
+
+TEST(Encoder, EndsThatAreNotFreeAreRefused) {
+  std::vector<std::uint8_t> image;
+  const Encoder encoder;
+  EXPECT_THROW(encoder.encode(room(8, 8), {0.5, 0.5}, {6.5, 5.5}, image), RequestError);
+  EXPECT_THROW(encoder.encode(room(8, 8), {1.5, 1.5}, {60.5, 5.5}, image), RequestError);
+  EXPECT_THROW(Encoder({4, 5, {}}), RequestError);
+  EXPECT_THROW(Encoder({64, 0, {}}), RequestError);
+  EXPECT_THROW(Encoder({64, 65, {}}), RequestError);
+}
+
+}  // namespace
+}  // namespace lrrt

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <future>
+#include <limits>
+#include <thread>
+
+#include "lrrt/error.hpp"
+#include "lrrt/map/footprint.hpp"
+#include "lrrt/map/shortest_path.hpp"
+#include "lrrt/ompl/planners.hpp"
+#include "lrrt/planner.hpp"
+#include "support.hpp"
+
+namespace lrrt {
+namespace {
+
+/// Marks a corridor around the shortest grid path, or whatever a test wants.
+class FixedPredictor final : public RegionPredictor {
+ public:
+  enum class Kind { corridor, empty, full, far_from_it };
+  explicit FixedPredictor(Kind kind) : kind_(kind) {}
+
+  Prediction predict(const OccupancyMap& map, const Eigen::Vector2d& start,
+                     const Eigen::Vector2d& goal) const override {
+    const Pixel from = OccupancyMap::pixel_of(map.to_pixel(start));
+    const Pixel to = OccupancyMap::pixel_of(map.to_pixel(goal));
+    std::vector<float> probability(map.size(), kind_ == Kind::full || kind_ == Kind::far_from_it ? 1.0F : 0.0F);
+    const float mark = kind_ == Kind::corridor ? 1.0F : 0.0F;
+    if (kind_ == Kind::corridor || kind_ == Kind::far_from_it) {
+      for (const Pixel p : shortest_path(map, from, to)) {
+        for (int k = 0; k < 9; ++k) {
+          const Pixel q{p.c + k % 3 - 1, p.r + k / 3 - 1};
+          if (map.contains(q)) probability[map.index(q)] = mark;
+        }
+      }
+    }
+    return {PromisingRegion(map, std::move(probability), from, to), {}};
+  }
+
+ private:
+  Kind kind_;
+};
+
+std::shared_ptr<const RegionPredictor> corridor() {
+  return std::make_shared<FixedPredictor>(FixedPredictor::Kind::corridor);
+}
+
+PlanOptions unguided(const std::string& planner = "RRTstar") {
+  PlanOptions options;
+  options.planner = planner;
+  options.strategy = Strategy::uniform;
+  return options;
+}
+
+double length(const std::vector<Eigen::Vector2d>& path) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) sum += (path[i] - path[i - 1]).norm();
+  return sum;
+}
+
+/// All that must hold of any result, checked by code that shares nothing with the planner.
+void expect_honest(const PlanResult& result, const OccupancyMap& planning_map, const Eigen::Vector2d& start,
+                   const Eigen::Vector2d& goal) {
+  const Pixel start_pixel = OccupancyMap::pixel_of(planning_map.to_pixel(start));
+  const Pixel goal_pixel = OccupancyMap::pixel_of(planning_map.to_pixel(goal));
+  if (result.status == PlanStatus::not_connected) {
+    EXPECT_EQ(test::flood(planning_map, start_pixel)[planning_map.index(goal_pixel)], 0);
+  }
+  if (!result.solved()) {
+    EXPECT_TRUE(result.path.empty());
+    EXPECT_TRUE(std::isinf(result.cost));
+    return;
+  }
+  ASSERT_GE(result.path.size(), 1U);
+  EXPECT_LT((result.path.front() - start).norm(), 1e-9);
+  EXPECT_LT((result.path.back() - goal).norm(), 1e-9);
+  EXPECT_NEAR(result.cost, length(result.path), 1e-9);
+  for (std::size_t i = 1; i < result.path.size(); ++i) {
+    EXPECT_FALSE(test::crosses_blocked(planning_map, planning_map.to_pixel(result.path[i - 1]),
+                                       planning_map.to_pixel(result.path[i])));
+  }
+  for (std::size_t i = 1; i < result.cost_history.size(); ++i) {
+    EXPECT_LT(result.cost_history[i].cost, result.cost_history[i - 1].cost);
+  }
+  ASSERT_FALSE(result.cost_history.empty());
+  EXPECT_NEAR(result.cost_history.back().cost, result.cost, 1e-6);
+}
+
+class EveryPlanner : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EveryPlanner, IsHonestOnRandomMapsWithRandomRegions) {
+  Random random(51);
+  int solved = 0;
+  int disconnected = 0;
+  for (int i = 0; i < 120; ++i) {
+    const OccupancyMap map = test::random_map(random, 3, 60);
+    const Eigen::Vector2d start = test::random_free_point(map, random);
+    const Eigen::Vector2d goal = test::random_free_point(map, random);
+    const double radius = i % 3 == 0 ? random.uniform(0.0, 2.0) : 0.0;
+    PlanOptions options = unguided(GetParam());
+    options.strategy = i % 2 == 0 ? Strategy::region : Strategy::uniform;
+    options.stop = i % 5 == 0 ? Stop::factor : Stop::first;
+    options.cost_factor = 1.3;
+    options.iteration_limit = 30000;
+    options.seed = static_cast<std::uint64_t>(i);
+    const auto kind = static_cast<FixedPredictor::Kind>(i / 2 % 4);
+    const PlanResult result = Planner(std::make_shared<FixedPredictor>(kind), options).plan({map, start, goal, radius});
+    expect_honest(result, inflated(map, radius), start, goal);
+    solved += static_cast<int>(result.solved());
+    disconnected += static_cast<int>(result.status == PlanStatus::not_connected);
+    if (radius == 0.0) {
+      EXPECT_TRUE(result.solved() || result.status == PlanStatus::not_connected) << to_string(result.status);
+    }
+  }
+  EXPECT_GT(solved, 60);
+  EXPECT_GT(disconnected, 5);
+}
+
+TEST_P(EveryPlanner, TheSameSeedGivesTheSameResult) {
+  Random random(52);
+  int different = 0;
+  for (int i = 0; i < 10; ++i) {
+    const OccupancyMap map = test::random_map(random, 30, 60);
+    const Eigen::Vector2d start = test::random_free_point(map, random);
+    const Eigen::Vector2d goal = test::random_free_point(map, random);
+    PlanOptions options = unguided(GetParam());
+    options.strategy = Strategy::region;
+    options.iteration_limit = 3000;
+    options.stop = Stop::limit;
+    options.time_limit = 60.0;
+    const PlanResult first = Planner(corridor(), options).plan({map, start, goal});
+    const PlanResult second = Planner(corridor(), options).plan({map, start, goal});
+    options.seed = 2;
+    const PlanResult other = Planner(corridor(), options).plan({map, start, goal});
+    EXPECT_EQ(first.status, second.status);
+    EXPECT_EQ(first.path, second.path);
+    EXPECT_EQ(first.nodes, second.nodes);
+    EXPECT_EQ(first.iterations, second.iterations);
+    different += static_cast<int>(first.path != other.path);
+  }
+  EXPECT_GT(different, 2);
+}
+
+TEST_P(EveryPlanner, PlansInMetresWithAnOriginAndAYaw) {
+  Random random(53);
+  int solved = 0;
+  for (int i = 0; i < 20; ++i) {
+    const OccupancyMap pixels = test::random_map(random, 10, 50);
+    const OccupancyMap map(pixels.width(), pixels.height(), pixels.cells(), 0.05, {-3.0, 7.0, random.uniform(-3, 3)});
+    const Eigen::Vector2d start = map.to_world(test::random_free_point(pixels, random));
+    const Eigen::Vector2d goal = map.to_world(test::random_free_point(pixels, random));
+    PlanOptions options = unguided(GetParam());
+    options.strategy = Strategy::region;
+    const PlanResult result = Planner(corridor(), options).plan({map, start, goal});
+    expect_honest(result, map, start, goal);
+    solved += static_cast<int>(result.solved());
+  }
+  EXPECT_GT(solved, 8);
+}
+
+INSTANTIATE_TEST_SUITE_P(Planner, EveryPlanner, ::testing::ValuesIn(planner_names()));
+
+TEST(Planner, SaysWhatIsWrongBeforeItPlans) {
+  const OccupancyMap map = test::map_from_rows({"..#..", "..#..", "?.#.."});
+  const Planner planner(nullptr, unguided());
+  const auto status = [&](Eigen::Vector2d start, Eigen::Vector2d goal) {
+    return planner.plan({map, start, goal}).status;
+  };
+  EXPECT_EQ(status({-0.1, 0.5}, {0.5, 0.5}), PlanStatus::start_outside);
+  EXPECT_EQ(status({0.5, 0.5}, {0.5, 3.0}), PlanStatus::goal_outside);
+  EXPECT_EQ(status({2.5, 0.5}, {0.5, 0.5}), PlanStatus::start_occupied);
+  EXPECT_EQ(status({0.5, 0.5}, {2.5, 2.5}), PlanStatus::goal_occupied);
+  EXPECT_EQ(status({0.5, 2.5}, {0.5, 0.5}), PlanStatus::start_occupied);  // unknown counts as occupied
+  EXPECT_EQ(status({0.5, 0.5}, {4.5, 0.5}), PlanStatus::not_connected);
+  EXPECT_EQ(planner.plan({map, {0.5, 2.5}, {0.5, 0.5}, 0.0, UnknownIs::free}).status, PlanStatus::solved);
+  EXPECT_EQ(planner.plan({map, {0.5, 0.5}, {1.5, 2.5}, 5.0}).status, PlanStatus::start_occupied);
+}
+
+TEST(Planner, StartAndGoalMayCoincide) {
+  const OccupancyMap map = test::map_from_rows({"...", "..."});
+  for (const std::string& name : planner_names()) {
+    const PlanResult result = Planner(nullptr, unguided(name)).plan({map, {1.2, 0.7}, {1.2, 0.7}});
+    EXPECT_EQ(result.status, PlanStatus::solved) << name;
+    EXPECT_EQ(result.cost, 0.0) << name;
+  }
+}
+
+TEST(Planner, DrawsItsShareFromTheRegionAndNoneWhereThereIsNone) {
+  const OccupancyMap map = test::map_from_rows(std::vector<std::string>(60, std::string(60, '.')));
+  PlanOptions options = unguided();
+  options.strategy = Strategy::region;
+  options.alpha = 0.8;
+  options.stop = Stop::limit;
+  options.iteration_limit = 5000;
+  const DrawCounts draws = Planner(corridor(), options).plan({map, {5, 5}, {50, 50}}).draws;
+  const auto total = static_cast<double>(draws.guided + draws.uniform);
+  EXPECT_GT(total, 4000);
+  EXPECT_NEAR(static_cast<double>(draws.guided) / total, 0.8, 0.03);
+  const auto empty = std::make_shared<FixedPredictor>(FixedPredictor::Kind::empty);
+  EXPECT_EQ(Planner(empty, options).plan({map, {5, 5}, {50, 50}}).draws.guided, 0U);
+}
+
+TEST(Planner, LimitsEndTheSearch) {
+  const OccupancyMap map = test::map_from_rows(std::vector<std::string>(60, std::string(60, '.')));
+  PlanOptions options = unguided();
+  options.stop = Stop::limit;
+  options.iteration_limit = 100;
+  const PlanResult counted = Planner(nullptr, options).plan({map, {1, 1}, {59, 59}});
+  EXPECT_EQ(counted.iterations, 100U);
+  options.iteration_limit = std::numeric_limits<std::size_t>::max();
+  options.time_limit = 0.05;
+  const PlanResult timed = Planner(nullptr, options).plan({map, {1, 1}, {59, 59}});
+  EXPECT_EQ(timed.status, PlanStatus::solved);
+  EXPECT_GE(timed.timings.plan, 50.0);
+  options.cancel.cancel();
+  EXPECT_EQ(Planner(nullptr, options).plan({map, {1, 1}, {59, 59}}).status, PlanStatus::cancelled);
+}
+
+TEST(Planner, AnotherThreadCanCancel) {
+  const OccupancyMap map = test::map_from_rows(std::vector<std::string>(60, std::string(60, '.')));
+  PlanOptions options = unguided();
+  options.stop = Stop::limit;
+  options.time_limit = 60.0;
+  CancelToken cancel = options.cancel;
+  const Planner planner(nullptr, options);
+  auto future = std::async(std::launch::async, [&] { return planner.plan({map, {1, 1}, {59, 59}}); });
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  cancel.cancel();
+  EXPECT_EQ(future.wait_for(std::chrono::seconds(5)), std::future_status::ready);
+  EXPECT_TRUE(future.get().solved());  // it had found a path before it was asked to stop shortening it
+}
+
+TEST(Planner, TheTreeHoldsThePath) {
+  Random random(54);
+  const OccupancyMap map = test::map_from_rows(std::vector<std::string>(40, std::string(40, '.')));
+  PlanOptions options = unguided();
+  options.keep_tree = true;
+  const PlanResult result = Planner(nullptr, options).plan({map, {1, 1}, {39, 39}});
+  ASSERT_TRUE(result.solved());
+  EXPECT_EQ(result.tree.size() + 1, result.nodes);
+  for (std::size_t i = 1; i < result.path.size(); ++i) {
+    const bool found = std::any_of(result.tree.begin(), result.tree.end(), [&](const TreeEdge& edge) {
+      return edge.from == result.path[i - 1] && edge.to == result.path[i];
+    });
+    EXPECT_TRUE(found) << i;
+  }
+}
+
+TEST(Planner, MoreTimeNeverMakesThePathLonger) {
+  const OccupancyMap map = test::map_from_rows(std::vector<std::string>(60, std::string(60, '.')));
+  PlanOptions options = unguided();
+  const double first = Planner(nullptr, options).plan({map, {1, 1}, {59, 59}}).cost;
+  options.stop = Stop::limit;
+  options.iteration_limit = 5000;
+  const PlanResult longer = Planner(nullptr, options).plan({map, {1, 1}, {59, 59}});
+  EXPECT_LT(longer.cost, first);
+  EXPECT_GE(longer.cost, std::sqrt(2.0) * 58.0 - 1e-9);
+  options.stop = Stop::factor;
+  options.cost_factor = 1.1;
+  EXPECT_LE(Planner(nullptr, options).plan({map, {1, 1}, {59, 59}}).cost, 1.1 * std::sqrt(2.0) * 58.0 + 1e-6);
+}
+
+TEST(Planner, OptionsAndRequestsAreChecked) {
+  const auto refused = [](auto change) {
+    PlanOptions options = unguided();
+    change(options);
+    EXPECT_THROW(Planner(nullptr, options), RequestError);
+  };
+  refused([](PlanOptions& o) { o.alpha = 1.1; });
+  refused([](PlanOptions& o) { o.alpha = std::nan(""); });
+  refused([](PlanOptions& o) { o.range = -1.0; });
+  refused([](PlanOptions& o) { o.range = std::numeric_limits<double>::infinity(); });
+  refused([](PlanOptions& o) { o.goal_bias = 2.0; });
+  refused([](PlanOptions& o) { o.time_limit = 0.0; });
+  refused([](PlanOptions& o) { o.time_limit = std::nan(""); });
+  refused([](PlanOptions& o) { o.cost_factor = 0.9; });
+  refused([](PlanOptions& o) { o.goal_tolerance = -0.1; });
+  refused([](PlanOptions& o) { o.planner = "A star"; });
+  refused([](PlanOptions& o) { o.strategy = Strategy::region; });  // and no predictor
+  const OccupancyMap map = test::map_from_rows({".."});
+  EXPECT_THROW(Planner(nullptr, unguided()).plan({map, {std::nan(""), 0.5}, {1.5, 0.5}}), RequestError);
+  EXPECT_THROW(strategy_from_string("frontal"), RequestError);
+  EXPECT_THROW(stop_from_string("never"), RequestError);
+}
+
+}  // namespace
+}  // namespace lrrt

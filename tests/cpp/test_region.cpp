@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lrrt/error.hpp"
+#include "lrrt/region/picture.hpp"
+#include "lrrt/region/promising_region.hpp"
+#include "support.hpp"
+
+namespace lrrt {
+namespace {
+
+TEST(PromisingRegion, TheMaskIsFreeAndProbable) {
+  const OccupancyMap map = test::map_from_rows({".#?."});
+  const PromisingRegion region(map, {0.5F, 0.9F, 0.9F, 0.49F}, {0, 0}, {3, 0});
+  EXPECT_EQ(region.mask(), (std::vector<std::uint8_t>{1, 0, 0, 0}));
+  EXPECT_EQ(region.area(), 1U);
+  EXPECT_FALSE(region.connected());
+}
+
+TEST(PromisingRegion, ConnectedMeansJoinedInsideTheMask) {
+  Random random(41);
+  int joined = 0;
+  for (int i = 0; i < 100; ++i) {
+    const OccupancyMap map = test::random_map(random, 3, 12);
+    const Pixel start = OccupancyMap::pixel_of(test::random_free_point(map, random));
+    const Pixel goal = OccupancyMap::pixel_of(test::random_free_point(map, random));
+    std::vector<float> probability(map.size());
+    std::vector<Cell> cells = map.cells();
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      probability[k] = static_cast<float>(random.uniform(0.2, 1.2));
+      if (probability[k] < 0.5F) cells[k] = Cell::occupied;
+    }
+    const bool expected = test::flood(map.with_cells(cells), start)[map.index(goal)] != 0;
+    EXPECT_EQ(PromisingRegion(map, probability, start, goal).connected(), expected);
+    joined += static_cast<int>(expected);
+  }
+  EXPECT_GT(joined, 5);
+}
+
+TEST(PromisingRegion, BrokenProbabilitiesNeverEnterTheMask) {
+  const OccupancyMap map = test::map_from_rows({".."});
+  const PromisingRegion region(map, {std::nanf(""), 1.0F}, {0, 0}, {1, 0});
+  EXPECT_EQ(region.mask(), (std::vector<std::uint8_t>{0, 1}));
+}
+
+TEST(PromisingRegion, SizesAndThresholdsAreChecked) {
+  const OccupancyMap map = test::map_from_rows({".."});
+  EXPECT_THROW(PromisingRegion(map, {1.0F}, {0, 0}, {1, 0}), RequestError);
+  EXPECT_THROW(PromisingRegion(map, {1.0F, 1.0F}, {0, 0}, {1, 0}, 0.0F), RequestError);
+  EXPECT_THROW(PromisingRegion(map, {1.0F, 1.0F}, {0, 0}, {1, 0}, 1.5F), RequestError);
+}
+
+TEST(Picture, HighlightsTheRegionOnTheMap) {
+  const OccupancyMap map = test::map_from_rows({".#.", "..."});
+  const PromisingRegion region(map, {1, 1, 0, 0, 0, 0}, {0, 0}, {2, 1});
+  const std::vector<std::uint8_t> picture = rgb_picture(map, region);
+  ASSERT_EQ(picture.size(), 18U);
+  EXPECT_EQ((Rgb{picture[0], picture[1], picture[2]}), Colours{}.promising);
+  EXPECT_EQ((Rgb{picture[3], picture[4], picture[5]}), Colours{}.obstacle);
+  EXPECT_EQ((Rgb{picture[6], picture[7], picture[8]}), Colours{}.free);
+  EXPECT_THROW(rgb_picture(test::map_from_rows({"."}), region), RequestError);
+}
+
+}  // namespace
+}  // namespace lrrt
