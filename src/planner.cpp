@@ -59,13 +59,17 @@ std::optional<PlanStatus> hopeless(const OccupancyMap& map, const PlanRequest& r
   return std::nullopt;
 }
 
-std::optional<PromisingRegion> predict(const RegionPredictor& predictor, const OccupancyMap& map,
-                                       const PlanRequest& request, PlanTimings& timings) {
-  Prediction prediction = predictor.predict(map, request.start, request.goal);
+/// The predicted region, its gaps closed: start and goal are joined by now, so there is a way to bridge them.
+PromisingRegion predict(const RegionPredictor& predictor, const OccupancyMap& map, const PlanRequest& request,
+                        PlanTimings& timings) {
+  const Prediction prediction = predictor.predict(map, request.start, request.goal);
+  const Stopwatch watch;
+  PromisingRegion region = prediction.region.bridged(map, OccupancyMap::pixel_of(map.to_pixel(request.start)),
+                                                     OccupancyMap::pixel_of(map.to_pixel(request.goal)));
   timings.encode = prediction.timings.encode;
   timings.infer = prediction.timings.infer;
-  timings.region = prediction.timings.region;
-  return std::move(prediction.region);
+  timings.region = prediction.timings.region + watch.total_ms();
+  return region;
 }
 
 MixedSampler sampler_for(const OccupancyMap& map, const std::optional<PromisingRegion>& region,

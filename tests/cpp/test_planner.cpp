@@ -187,7 +187,7 @@ TEST(Planner, StartAndGoalMayCoincide) {
   }
 }
 
-TEST(Planner, DrawsItsShareFromTheRegionAndNoneWhereThereIsNone) {
+TEST(Planner, DrawsItsShareFromTheRegion) {
   const OccupancyMap map = test::map_from_rows(std::vector<std::string>(60, std::string(60, '.')));
   PlanOptions options = unguided();
   options.strategy = Strategy::region;
@@ -198,8 +198,20 @@ TEST(Planner, DrawsItsShareFromTheRegionAndNoneWhereThereIsNone) {
   const auto total = static_cast<double>(draws.guided + draws.uniform);
   EXPECT_GT(total, 4000);
   EXPECT_NEAR(static_cast<double>(draws.guided) / total, 0.8, 0.03);
+  options.alpha = 0.0;
+  EXPECT_EQ(Planner(corridor(), options).plan({map, {5, 5}, {50, 50}}).draws.guided, 0U);
+}
+
+TEST(Planner, BridgesARegionThatDoesNotJoinStartAndGoal) {
+  const OccupancyMap map = test::map_from_rows(std::vector<std::string>(60, std::string(60, '.')));
+  PlanOptions options = unguided();
+  options.strategy = Strategy::region;
   const auto empty = std::make_shared<FixedPredictor>(FixedPredictor::Kind::empty);
-  EXPECT_EQ(Planner(empty, options).plan({map, {5, 5}, {50, 50}}).draws.guided, 0U);
+  const PlanResult result = Planner(empty, options).plan({map, {5, 5}, {50, 50}});
+  ASSERT_TRUE(result.promising.has_value());
+  EXPECT_TRUE(result.promising->connected());
+  EXPECT_GT(result.promising->bridge_area(), 0U);
+  EXPECT_EQ(result.promising->bridge_area(), result.promising->area());
 }
 
 TEST(Planner, LimitsEndTheSearch) {

@@ -45,6 +45,41 @@ TEST(PromisingRegion, BrokenProbabilitiesNeverEnterTheMask) {
   EXPECT_EQ(region.mask(), (std::vector<std::uint8_t>{0, 1}));
 }
 
+TEST(PromisingRegion, BridgesJoinStartAndGoalThroughTheFewestPixels) {
+  Random random(42);
+  int bridged = 0;
+  for (int i = 0; i < 200; ++i) {
+    const OccupancyMap map = test::random_map(random, 3, 40);
+    const Pixel start = OccupancyMap::pixel_of(test::random_free_point(map, random));
+    const Pixel goal = OccupancyMap::pixel_of(test::random_free_point(map, random));
+    std::vector<float> probability(map.size());
+    for (float& p : probability) p = random.uniform() < 0.7 ? 1.0F : 0.0F;
+    const PromisingRegion broken(map, probability, start, goal);
+    const PromisingRegion whole = broken.bridged(map, start, goal, 1);
+    const bool possible = test::flood(map, start)[map.index(goal)] != 0;
+    EXPECT_EQ(whole.connected(), possible);
+    EXPECT_EQ(whole.area(), broken.area() + whole.bridge_area());
+    std::vector<Cell> inside = map.cells();
+    for (std::size_t k = 0; k < inside.size(); ++k) {
+      EXPECT_GE(whole.mask()[k], broken.mask()[k]);
+      EXPECT_TRUE(whole.mask()[k] == 0 || inside[k] == Cell::free);
+      if (whole.mask()[k] == 0) inside[k] = Cell::occupied;
+    }
+    EXPECT_EQ(test::flood(map.with_cells(inside), start)[map.index(goal)] != 0, possible);
+    bridged += static_cast<int>(possible && !broken.connected());
+  }
+  EXPECT_GT(bridged, 20);
+}
+
+TEST(PromisingRegion, ABridgeTakesTheShortestGap) {
+  const OccupancyMap map = test::map_from_rows({".......", "#####.#", "......."});
+  const PromisingRegion region(map, {1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 0, 1, 1}, {0, 0}, {0, 2});
+  const PromisingRegion whole = region.bridged(map, {0, 0}, {0, 2}, 0);
+  EXPECT_EQ(whole.bridge_area(), 2U);  // the door and the one pixel that the region lacks behind it
+  EXPECT_EQ(region.bridge_area(), 0U);
+  EXPECT_TRUE(whole.connected());
+}
+
 TEST(PromisingRegion, SizesAndThresholdsAreChecked) {
   const OccupancyMap map = test::map_from_rows({".."});
   EXPECT_THROW(PromisingRegion(map, {1.0F}, {0, 0}, {1, 0}), RequestError);

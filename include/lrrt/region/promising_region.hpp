@@ -28,6 +28,14 @@ class PromisingRegion {
   std::size_t area() const { return area_; }
   /// True when one can walk from start to goal inside the mask without touching any other pixel.
   bool connected() const { return connected_; }
+  /// Number of pixels that bridged() added to the mask; 0 for a region as it was predicted.
+  std::size_t bridge_area() const { return bridge_area_; }
+
+  /// The region with its gaps closed: start and goal are joined along the way that leaves the mask for the fewest
+  /// pixels, and that way is widened within free space. Predicted regions do break, and a broken one guides into a dead
+  /// end.
+  /// @param halo half the width of a bridge, pixels. @return the region itself when it is connected or cannot be.
+  PromisingRegion bridged(const OccupancyMap& map, Pixel start, Pixel goal, int halo = 3) const;
 
  private:
   int width_;
@@ -36,6 +44,7 @@ class PromisingRegion {
   std::vector<std::uint8_t> mask_;
   std::size_t area_;
   bool connected_;
+  std::size_t bridge_area_ = 0;
 };
 
 }  // namespace lrrt
