@@ -22,9 +22,9 @@ done
 
 say "Installing with apt: ${missing[*]}"
 as_root dpkg --configure -a
-as_root apt-get update -q || say "apt-get update reported problems; going on with what it has"
+as_root apt-get update -qq || say "apt-get update reported problems; going on with what it has"
 as_root env DEBIAN_FRONTEND=noninteractive \
-  apt-get install -q -y --no-install-recommends -o Acquire::Retries=3 "${missing[@]}" ||
+  apt-get install -qq -y --no-install-recommends -o Acquire::Retries=3 -o Dpkg::Use-Pty=0 "${missing[@]}" ||
   die "apt could not install: ${missing[*]}" \
     "Is the network up, and is the proxy or mirror in /etc/apt right? On Ubuntu the 'universe' component must be enabled." \
     "Run the command again to go on."

@@ -75,6 +75,7 @@ download_npm() {
 
 # Each writes into $new/include.
 headers_from_deb() {
+  [ -n "$(debian_mirrors)" ] || return 1
   say "ONNX Runtime headers: from Debian's libonnxruntime-dev (85 KB)"
   fetch_checked "$cache/headers.deb" "$deb_sha256" download_deb || return 1
   dpkg-deb -x "$cache/headers.deb" "$new/deb"
@@ -83,7 +84,7 @@ headers_from_deb() {
 }
 
 headers_from_npm() {
-  say "ONNX Runtime headers: not on this machine's apt mirror; from the npm package $npm_name (150 MB)"
+  say "ONNX Runtime headers: no Debian mirror offers them here; from the npm package $npm_name (150 MB)"
   fetch_checked "$cache/both.tgz" "$npm_sha256" download_npm || return 1
   mkdir "$new/npm"
   tar -xzf "$cache/both.tgz" -C "$new/npm" --wildcards '*/ios-arm64/*/Headers/*'
