@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The paper's accuracy, redundancy and metric, and connectivity; per map, then the mean, per maze level."""
+
+from __future__ import annotations
+
+import numpy as np
+import torch
+from scipy import ndimage
+from torch import Tensor
+from torchmetrics import Metric
+
+OBSTACLE, PROMISING = 1, 2  #: class numbers in labels
+START, GOAL = 1, 2  #: values of the ``ends`` picture
+NAMES = ("accuracy", "redundancy", "metric", "connectivity")
+
+
+def accuracy(region: Tensor, label: Tensor) -> Tensor:
+    """Share of the true path's pixels that the region holds. (N, H, W) bool and classes → (N,)."""
+    truth = label == PROMISING
+    return (region & truth).flatten(1).sum(1) / truth.flatten(1).sum(1).clamp(min=1)
+
+
+def redundancy(region: Tensor, label: Tensor) -> Tensor:
+    """Free pixels of the region off the path, by pixels of the path. (N, H, W) bool and classes → (N,)."""
+    truth = label == PROMISING
+    excess = region & ~truth & (label != OBSTACLE)
+    return excess.flatten(1).sum(1) / truth.flatten(1).sum(1).clamp(min=1)
+
+
+def is_connected(region: np.ndarray, label: np.ndarray, ends: np.ndarray) -> bool:
+    """True if region ∩ free joins start and goal by steps to the four neighbours.
+
+    Args:
+        region: (H, W) bool, the predicted region.
+        label: (H, W) classes.
+        ends: (H, W), ``START`` and ``GOAL`` on the pixels of the start's and the goal's block, 0 elsewhere.
+    """
+    components, _ = ndimage.label(region & (label != OBSTACLE))
+    at_start = np.unique(components[ends == START])
+    at_goal = np.unique(components[ends == GOAL])
+    return bool(np.intersect1d(at_start[at_start > 0], at_goal[at_goal > 0]).size)
+
+
+class RegionMetrics(Metric):
+    """Mean accuracy, redundancy, metric = (1 − accuracy) + redundancy and connectivity, for every level and over all.
+
+    ``compute`` returns {level: {name: value, "count": n}} with the key ``"all"`` for the mean over all maps.
+    """
+
+    full_state_update = False
+    sums: Tensor
+
+    def __init__(self, levels: list[int]) -> None:
+        super().__init__()
+        self.levels = sorted(levels)
+        self.add_state("sums", torch.zeros(len(levels), 4, dtype=torch.float64), dist_reduce_fx="sum")
+
+    def update(self, region: Tensor, label: Tensor, ends: Tensor, level: Tensor) -> None:
+        """Adds maps: (N, H, W) bool region, (N, H, W) label and ends, (N,) levels."""
+        connected = [
+            is_connected(*picture) for picture in zip(region.cpu().numpy(), label.cpu().numpy(), ends.cpu().numpy())
+        ]
+        rows = torch.stack(
+            (
+                accuracy(region, label).double(),
+                redundancy(region, label).double(),
+                torch.tensor(connected, dtype=torch.float64, device=region.device),
+                torch.ones(len(region), dtype=torch.float64, device=region.device),
+            ),
+            dim=1,
+        )
+        index = torch.tensor([self.levels.index(int(v)) for v in level], device=rows.device)
+        self.sums.index_add_(0, index, rows.to(self.sums.dtype))
+
+    def compute(self) -> dict[int | str, dict[str, float]]:
+        """The means; levels without a map are left out."""
+        result: dict[int | str, dict[str, float]] = {}
+        for level, row in zip(self.levels, self.sums):
+            if row[3] > 0:
+                result[level] = _means(row)
+        result["all"] = _means(self.sums.sum(dim=0))
+        return result
+
+
+def _means(row: Tensor) -> dict[str, float]:
+    acc, red, con, count = row.tolist()
+    n = max(count, 1.0)
+    return {
+        "accuracy": acc / n,
+        "redundancy": red / n,
+        "metric": (1 - acc / n) + red / n,
+        "connectivity": con / n,
+        "count": int(count),
+    }

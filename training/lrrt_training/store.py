@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Mazes on disk: one small file for each split and level, bits packed at block resolution."""
+
+from __future__ import annotations
+
+import os
+import zipfile
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from pathlib import Path
+
+import numpy as np
+from rich.progress import Progress
+
+from . import mazes
+
+SPLITS = ("train", "evaluation", "test")
+DEFAULT_COUNTS = {"train": 6000, "evaluation": 1000, "test": 1000}  #: mazes per level, as in the paper
+_FORMAT = 1
+
+
+def pack(occupied: np.ndarray) -> np.ndarray:
+    """(N, m, m) bool → (N, ceil(m²/8)) uint8."""
+    return np.packbits(occupied.reshape(len(occupied), -1), axis=1)
+
+
+def unpack(bits: np.ndarray, level: int) -> np.ndarray:
+    """One packed maze → (level, level) bool."""
+    return np.unpackbits(bits, count=level * level).reshape(level, level).astype(bool)
+
+
+def generate_level(split: str, level: int, count: int, seed: int, braided_share: float) -> np.ndarray:
+    """``count`` packed mazes; maze i depends on (seed, split, level, i) alone, so that splits never share a seed."""
+    parts = []
+    for i in range(count):
+        rng = np.random.default_rng([seed, SPLITS.index(split), level, i])
+        parts.append(np.packbits(mazes.random_maze(rng, level, braided_share)))
+    return np.stack(parts)
+
+
+def _write(path: Path, **arrays) -> None:
+    """Writes an npz under a temporary name, then renames it: a file of the store is whole or absent."""
+    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    with open(temporary, "wb") as file:
+        np.savez(file, **arrays)
+    os.replace(temporary, path)
+
+
+class MazeStore:
+    """Folder of maze files ``<split>/<level>.npz``.
+
+    Args:
+        folder: where the files lie.
+        seed: seed of all mazes.
+        counts: mazes per level for each split.
+        braided_share: share of the mazes that get loops.
+    """
+
+    def __init__(
+        self,
+        folder: str | Path,
+        seed: int = 1,
+        counts: dict[str, int] | None = None,
+        braided_share: float = 0.25,
+    ) -> None:
+        self.folder = Path(folder)
+        self.seed = seed
+        self.counts = {**DEFAULT_COUNTS, **(counts or {})}
+        self.braided_share = braided_share
+        self._cache: dict[tuple[str, int], np.ndarray] = {}
+
+    def path(self, split: str, level: int) -> Path:
+        return self.folder / split / f"{level}.npz"
+
+    def _settings(self, split: str) -> np.ndarray:
+        return np.array([_FORMAT, self.seed, self.counts[split], round(1000 * self.braided_share)])
+
+    def _load(self, split: str, level: int) -> np.ndarray | None:
+        """The packed mazes, or None where the file is absent, broken or made with other settings."""
+        try:
+            with np.load(self.path(split, level)) as file:
+                if not np.array_equal(file["settings"], self._settings(split)):
+                    return None
+                return file["mazes"]
+        except (OSError, KeyError, ValueError, zipfile.BadZipFile):
+            return None
+
+    def mazes(self, split: str, level: int) -> np.ndarray:
+        """(N, bytes) packed mazes of one level; ``unpack`` opens one."""
+        key = (split, level)
+        if key not in self._cache:
+            bits = self._load(split, level)
+            if bits is None:
+                raise FileNotFoundError(
+                    f"{self.path(split, level)}: no mazes of level {level} with seed {self.seed} and "
+                    f"{self.counts[split]} mazes a level; run 'python -m lrrt_training generate' first"
+                )
+            self._cache[key] = bits
+        return self._cache[key]
+
+    def generate_file(self, split: str, level: int) -> None:
+        """Makes one file."""
+        bits = generate_level(split, level, self.counts[split], self.seed, self.braided_share)
+        self.path(split, level).parent.mkdir(parents=True, exist_ok=True)
+        _write(self.path(split, level), mazes=bits, settings=self._settings(split))
+
+    def generate(self, levels: list[int], splits: tuple[str, ...] = SPLITS, workers: int = 2) -> int:
+        """Makes every file that is missing, with a progress bar; returns how many it made."""
+        for level in levels:
+            mazes.check_level(level)
+        jobs = [(s, m) for s in splits for m in sorted(set(levels)) if self._load(s, m) is None]
+        if not jobs:
+            return 0
+        total = sum(self.counts[split] for split, _ in jobs)
+        with Progress() as progress, ProcessPoolExecutor(max_workers=workers) as pool:
+            task = progress.add_task("mazes", total=total)
+            pending = {pool.submit(self.generate_file, *job): job for job in jobs}
+            for future in as_completed(pending):
+                future.result()
+                progress.advance(task, self.counts[pending[future][0]])
+        return len(jobs)
