@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The everyday commands. Each does the set-up that it needs, skips what is up to date, and can be interrupted and
-# run again. Variables: PRESET (release, debug, asan, ci), JOBS, PYTHON, ONNXRUNTIME_ROOT.
+# run again. Variables: PRESET (release, debug, asan, ci), JOBS, PYTHON, ONNXRUNTIME_ROOT, CONFIG, MODEL.
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 SHELL := /bin/bash
 
 PRESET ?= release
+CONFIG ?= training/configs/default.yaml
+MODEL ?= models/default.onnx
 JOBS ?= $(shell nproc)
 export JOBS
 python := .venv/bin/python
@@ -45,6 +47,14 @@ test: setup-training ## Run every test: C++, Python, training
 	@$(python) -m pytest -q tests/python
 	@echo "==> Training tests"
 	@$(python) -m pytest -q -c training/pyproject.toml training/tests
+
+.PHONY: train
+train: setup-training ## Train a model: CONFIG=training/configs/default.yaml
+	@cd training && $(abspath $(python)) -m lrrt_training train --config $(abspath $(CONFIG))
+
+.PHONY: evaluate
+evaluate: setup-training ## Measure a model on the test mazes: MODEL=models/default.onnx
+	@cd training && $(abspath $(python)) -m lrrt_training evaluate $(abspath $(MODEL))
 
 .PHONY: lint
 lint: install-python ## Check formatting, style and types
