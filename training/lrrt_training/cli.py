@@ -4,21 +4,20 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Optional
 
 import typer
+
+from .store import MazeStore
+
+DATA = Path("data_cache")
 
 app = typer.Typer(
     no_args_is_help=True,
     add_completion=False,
     help="Trains the network that marks promising regions.\n\nA whole run: train --config configs/default.yaml, "
-    "then export runs/default, then evaluate ../models/default.onnx.",
+    "then export runs/default, then evaluate ../models/default.onnx --record.",
 )
-
-
-@app.callback()
-def _root() -> None:
-    """Keeps commands named even while there is only one."""
 
 
 @app.command()
@@ -42,5 +41,83 @@ def train(
     typer.echo(f"trained: {run(settings)}")
 
 
+@app.command()
+def generate(
+    data: Annotated[Path, typer.Option(help="Folder of the mazes.")] = DATA,
+    levels: Annotated[str, typer.Option(help="Levels, e.g. 21-49 or 21,35.")] = "21-49",
+    workers: Annotated[int, typer.Option(help="Processes.")] = 2,
+) -> None:
+    """Make the mazes of all splits that are missing (8000 a level: 6000 train, 1000 evaluation, 1000 test)."""
+    made = MazeStore(data).generate(_levels(levels), workers=workers)
+    typer.echo(f"{data}: {made} new files")
+
+
+@app.command()
+def export(
+    run: Annotated[Path, typer.Argument(help="Folder of a run (its last stage is taken) or a checkpoint.")],
+    output: Annotated[Path, typer.Option(help="ONNX file to write.")] = Path("../models/default.onnx"),
+    size: Annotated[int, typer.Option(help="Side of the network's input, pixels.")] = 256,
+    training_data: Annotated[str, typer.Option(help="For the metadata: what it was trained on.")] = "",
+    training_budget: Annotated[str, typer.Option(help="For the metadata: how long, on what.")] = "",
+) -> None:
+    """Export a checkpoint to ONNX and compare the file with PyTorch."""
+    import torch
+
+    from .export import TOLERANCE, export_onnx, metadata, parity
+    from .train import load_module
+
+    checkpoint = max(run.glob("stage*.ckpt")) if run.is_dir() else run
+    module = load_module(checkpoint)
+    output.parent.mkdir(parents=True, exist_ok=True)
+    properties = metadata(output.stem, size, module.hparams.classes, training_data, training_budget)
+    export_onnx(module.network, output, size, properties)
+    difference = parity(module.network, output, torch.randint(0, 256, (2, 3, size, size), dtype=torch.uint8))
+    typer.echo(f"{output}: {output.stat().st_size / 1e6:.1f} MB, largest difference to PyTorch {difference:.1e}")
+    if difference > TOLERANCE:
+        raise typer.Exit(1)
+
+
+@app.command()
+def evaluate(
+    model: Annotated[Path, typer.Argument(help="ONNX file.", exists=True, dir_okay=False)] = Path("../models/default.onnx"),
+    levels: Annotated[str, typer.Option(help="Levels, e.g. 21-49 or 21,35.")] = "21,25,31,35,45,49",
+    mazes: Annotated[int, typer.Option(help="Mazes a level.")] = 200,
+    split: Annotated[str, typer.Option(help="train, evaluation or test.")] = "test",
+    data: Annotated[Path, typer.Option(help="Folder of the mazes.")] = DATA,
+    threads: Annotated[int, typer.Option(help="Threads of ONNX Runtime.")] = 2,
+    record: Annotated[bool, typer.Option(help="Write the scores to manifest.json and the model card.")] = False,
+    sheet: Annotated[Optional[Path], typer.Option(help="Also write a contact sheet of predictions (PNG).")] = None,
+) -> None:
+    """Score an exported model on held-out mazes."""
+    from rich.console import Console
+
+    from . import evaluate as scoring
+
+    store = MazeStore(data)
+    wanted = _levels(levels)
+    store.generate(wanted, (split,))
+    loaded = scoring.OnnxModel(model, threads)
+    scores = scoring.evaluate(loaded, store, wanted, mazes, split)
+    Console().print(scoring.rich_table(f"{model.name}, {split} mazes", scores))
+    if record:
+        scoring.write_manifest(model.parent, loaded, scores, split)
+        scoring.write_card_table(model.parent / "README.md", scores)
+    if sheet is not None:
+        scoring.contact_sheet(loaded, store, wanted, sheet)
+
+
+def _levels(text: str) -> list[int]:
+    """ "21-25,31" → [21, 23, 25, 31]."""
+    levels: list[int] = []
+    for part in text.split(","):
+        low, _, high = part.partition("-")
+        try:
+            levels += range(int(low), int(high or low) + 1, 2)
+        except ValueError as error:
+            raise typer.BadParameter(f"{text!r}: expected levels such as 21-49 or 21,35") from error
+    return levels
+
+
 def main() -> None:
+    """Entry point of the command line."""
     app()
