@@ -10,9 +10,9 @@ namespace {
 
 /// Centre-to-centre distances bound how far a pixel's points can be from a blocked pixel only up to half a diagonal at
 /// each end, √2 together; the rest is for rounding.
-constexpr double kSlack = 1.5;
+constexpr double slack = 1.5;
 /// Below this clearance a leap is hardly longer than a step and costs more.
-constexpr float kLeapFrom = 4.0F;
+constexpr float leap_from = 4.0F;
 
 /// One axis of the walk: where the segment crosses from one pixel to the next, as a share of its length.
 struct Axis {
@@ -48,8 +48,8 @@ bool SegmentWalk::is_free(const Eigen::Vector2d& from, const Eigen::Vector2d& to
     if (clearance <= 0.0F) return false;
     const double leave_x = x.leaves(pixel.c);
     const double leave_y = y.leaves(pixel.r);
-    if (clearance >= kLeapFrom) {
-      travelled += clearance - kSlack;
+    if (clearance >= leap_from) {
+      travelled += clearance - slack;
       if (travelled >= length) return true;
       const Pixel landed = OccupancyMap::pixel_of(from + direction * (travelled / length));
       const auto [low_c, high_c] = std::minmax(pixel.c, last.c);

@@ -11,8 +11,8 @@
 namespace lrrt {
 namespace {
 
-constexpr float kDiagonal = 1.41421356F;
-constexpr float kUnreached = std::numeric_limits<float>::infinity();
+constexpr float diagonal = 1.41421356F;
+constexpr float unreached = std::numeric_limits<float>::infinity();
 
 struct Step {
   int dc;
@@ -20,14 +20,14 @@ struct Step {
   float cost;
 };
 
-constexpr std::array<Step, 8> kSteps = {{{1, 0, 1.0F},
-                                         {0, 1, 1.0F},
-                                         {-1, 0, 1.0F},
-                                         {0, -1, 1.0F},
-                                         {1, 1, kDiagonal},
-                                         {-1, 1, kDiagonal},
-                                         {-1, -1, kDiagonal},
-                                         {1, -1, kDiagonal}}};
+constexpr std::array<Step, 8> steps = {{{1, 0, 1.0F},
+                                        {0, 1, 1.0F},
+                                        {-1, 0, 1.0F},
+                                        {0, -1, 1.0F},
+                                        {1, 1, diagonal},
+                                        {-1, 1, diagonal},
+                                        {-1, -1, diagonal},
+                                        {1, -1, diagonal}}};
 
 struct Open {
   float estimate;
@@ -41,7 +41,7 @@ float octile(Pixel a, Pixel b) {
   const int dc = std::abs(a.c - b.c);
   const int dr = std::abs(a.r - b.r);
   const int shared = std::min(dc, dr);
-  return static_cast<float>(std::max(dc, dr) - shared) + kDiagonal * static_cast<float>(shared);
+  return static_cast<float>(std::max(dc, dr) - shared) + diagonal * static_cast<float>(shared);
 }
 
 bool can_step(const OccupancyMap& map, Pixel from, const Step& step) {
@@ -53,7 +53,7 @@ bool can_step(const OccupancyMap& map, Pixel from, const Step& step) {
 std::vector<Pixel> trace(const OccupancyMap& map, const std::vector<std::int8_t>& arrived_by, Pixel start, Pixel goal) {
   std::vector<Pixel> path{goal};
   for (Pixel p = goal; p != start;) {
-    const Step& step = kSteps[static_cast<std::size_t>(arrived_by[map.index(p)])];
+    const Step& step = steps[static_cast<std::size_t>(arrived_by[map.index(p)])];
     p = {p.c - step.dc, p.r - step.dr};
     path.push_back(p);
   }
@@ -65,7 +65,7 @@ std::vector<Pixel> trace(const OccupancyMap& map, const std::vector<std::int8_t>
 
 std::vector<Pixel> shortest_path(const OccupancyMap& map, Pixel start, Pixel goal) {
   if (!map.is_free(start) || !map.is_free(goal)) return {};
-  std::vector<float> cost(map.size(), kUnreached);
+  std::vector<float> cost(map.size(), unreached);
   std::vector<std::int8_t> arrived_by(map.size(), -1);
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
   cost[map.index(start)] = 0.0F;
@@ -75,10 +75,10 @@ std::vector<Pixel> shortest_path(const OccupancyMap& map, Pixel start, Pixel goa
     open.pop();
     if (node.pixel == goal) return trace(map, arrived_by, start, goal);
     if (node.cost > cost[map.index(node.pixel)]) continue;
-    for (std::size_t i = 0; i < kSteps.size(); ++i) {
-      if (!can_step(map, node.pixel, kSteps[i])) continue;
-      const Pixel next{node.pixel.c + kSteps[i].dc, node.pixel.r + kSteps[i].dr};
-      const float next_cost = node.cost + kSteps[i].cost;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      if (!can_step(map, node.pixel, steps[i])) continue;
+      const Pixel next{node.pixel.c + steps[i].dc, node.pixel.r + steps[i].dr};
+      const float next_cost = node.cost + steps[i].cost;
       if (next_cost >= cost[map.index(next)]) continue;
       cost[map.index(next)] = next_cost;
       arrived_by[map.index(next)] = static_cast<std::int8_t>(i);

@@ -41,7 +41,8 @@ InputFit fit(int size, const PixelBox& crop) {
   InputFit result;
   result.size = size;
   result.crop = crop;
-  result.scale = extent <= size ? static_cast<double>(size / extent) : static_cast<double>(size) / extent;
+  const int whole = size / extent;
+  result.scale = whole >= 1 ? whole : static_cast<double>(size) / extent;
   const auto scaled = [&](int side) { return std::max(1, static_cast<int>(std::lround(side * result.scale))); };
   result.placed.width = scaled(crop.width);
   result.placed.height = scaled(crop.height);

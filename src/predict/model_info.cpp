@@ -13,7 +13,7 @@ namespace lrrt {
 namespace {
 
 /// The metadata layout that this library reads.
-constexpr const char* kFormat = "1";
+constexpr const char* metadata_format = "1";
 
 class Reader {
  public:
@@ -69,8 +69,8 @@ Colours read_colours(const Reader& reader) {
 
 ModelInfo read_model_info(const std::filesystem::path& path, const MetadataLookup& lookup) {
   const Reader reader(path, lookup);
-  if (reader.text("lrrt_format") != kFormat) {
-    reader.fail("lrrt_format", "is '" + reader.text("lrrt_format") + "', this library reads '" + kFormat + "'");
+  if (reader.text("lrrt_format") != metadata_format) {
+    reader.fail("lrrt_format", "is '" + reader.text("lrrt_format") + "', this library reads '" + metadata_format + "'");
   }
   ModelInfo info;
   info.path = path;

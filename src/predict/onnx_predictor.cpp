@@ -17,8 +17,8 @@
 namespace lrrt {
 namespace {
 
-constexpr const char* kInput = "image";
-constexpr const char* kOutput = "probability";
+constexpr const char* input_name = "image";
+constexpr const char* output_name = "probability";
 
 Ort::Env& environment() {
   static Ort::Env env(ORT_LOGGING_LEVEL_ERROR, "lrrt");
@@ -102,10 +102,10 @@ class OnnxPredictor::Session {
         info_(read_info(path)),
         encoder_(info_.input) {
     Ort::AllocatorWithDefaultOptions allocator;
-    check_name(info_, session_.GetInputCount(), session_.GetInputNameAllocated(0, allocator), kInput);
-    check_name(info_, session_.GetOutputCount(), session_.GetOutputNameAllocated(0, allocator), kOutput);
-    check_tensor(info_, session_.GetInputTypeInfo(0), kInput, ONNX_TENSOR_ELEMENT_DATA_TYPE_UINT8, 3);
-    check_tensor(info_, session_.GetOutputTypeInfo(0), kOutput, ONNX_TENSOR_ELEMENT_DATA_TYPE_FLOAT,
+    check_name(info_, session_.GetInputCount(), session_.GetInputNameAllocated(0, allocator), input_name);
+    check_name(info_, session_.GetOutputCount(), session_.GetOutputNameAllocated(0, allocator), output_name);
+    check_tensor(info_, session_.GetInputTypeInfo(0), input_name, ONNX_TENSOR_ELEMENT_DATA_TYPE_UINT8, 3);
+    check_tensor(info_, session_.GetOutputTypeInfo(0), output_name, ONNX_TENSOR_ELEMENT_DATA_TYPE_FLOAT,
                  static_cast<std::int64_t>(info_.classes.size()));
   }
 
@@ -117,7 +117,7 @@ class OnnxPredictor::Session {
     Stopwatch watch;
     const InputFit fit = encoder_.encode(map, start, goal, workspace->image);
     timings.encode = watch.lap_ms();
-    session_.Run(Ort::RunOptions{nullptr}, &kInput, &workspace->input, 1, &kOutput, &workspace->output, 1);
+    session_.Run(Ort::RunOptions{nullptr}, &input_name, &workspace->input, 1, &output_name, &workspace->output, 1);
     timings.infer = watch.lap_ms();
     const float* promising = workspace->probability.data() + info_.promising * Workspace::plane(info_);
     PromisingRegion region(map, fit.to_map(promising, map.width(), map.height()),

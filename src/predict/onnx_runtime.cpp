@@ -14,7 +14,7 @@ namespace lrrt {
 namespace {
 
 /// The oldest API that has all the calls in use; every newer runtime still offers it.
-constexpr std::uint32_t kApi = 21;
+constexpr std::uint32_t oldest_api = 21;
 
 std::vector<std::string> candidates() {
   std::vector<std::string> places;
@@ -37,12 +37,12 @@ const OrtApi* open(const std::string& place, std::string& version, std::string& 
   }
   const auto get_base = reinterpret_cast<const OrtApiBase* (*)()>(dlsym(library, "OrtGetApiBase"));
   const OrtApiBase* base = get_base != nullptr ? get_base() : nullptr;
-  const OrtApi* api = base != nullptr ? base->GetApi(kApi) : nullptr;
+  const OrtApi* api = base != nullptr ? base->GetApi(oldest_api) : nullptr;
   if (api == nullptr) {
     failures += "\n  " + place + ": " +
-                (base != nullptr
-                     ? std::string("version ") + base->GetVersionString() + " is older than 1." + std::to_string(kApi)
-                     : std::string("is not ONNX Runtime"));
+                (base != nullptr ? std::string("version ") + base->GetVersionString() + " is older than 1." +
+                                       std::to_string(oldest_api)
+                                 : std::string("is not ONNX Runtime"));
     dlclose(library);
     return nullptr;
   }
@@ -60,7 +60,7 @@ std::string open_first() {
     }
   }
   throw ModelError(
-      "ONNX Runtime (1." + std::to_string(kApi) +
+      "ONNX Runtime (1." + std::to_string(oldest_api) +
       " or newer) cannot be opened. Set LRRT_ONNXRUNTIME to the path of libonnxruntime.so, or install it where "
       "the dynamic linker finds it. Tried:" +
       failures);

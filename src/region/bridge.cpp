@@ -9,14 +9,14 @@
 namespace lrrt {
 namespace {
 
-constexpr std::array<Pixel, 4> kSides = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-constexpr std::int32_t kUnreached = std::numeric_limits<std::int32_t>::max();
+constexpr std::array<Pixel, 4> sides = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+constexpr std::int32_t unreached = std::numeric_limits<std::int32_t>::max();
 
 /// Search over free pixels where a step inside the mask costs 0 and any other costs 1, with a double-ended queue
 /// instead of a heap. @return the way from goal back to start; empty when there is none.
 std::vector<Pixel> cheapest_detour(const OccupancyMap& map, const std::vector<std::uint8_t>& mask, Pixel start,
                                    Pixel goal) {
-  std::vector<std::int32_t> cost(map.size(), kUnreached);
+  std::vector<std::int32_t> cost(map.size(), unreached);
   std::vector<std::uint8_t> arrived_by(map.size(), 0);
   std::deque<Pixel> open{start};
   cost[map.index(start)] = 0;
@@ -24,8 +24,8 @@ std::vector<Pixel> cheapest_detour(const OccupancyMap& map, const std::vector<st
     const Pixel p = open.front();
     open.pop_front();
     if (p == goal) break;
-    for (std::size_t side = 0; side < kSides.size(); ++side) {
-      const Pixel next{p.c + kSides[side].c, p.r + kSides[side].r};
+    for (std::size_t side = 0; side < sides.size(); ++side) {
+      const Pixel next{p.c + sides[side].c, p.r + sides[side].r};
       if (!map.is_free(next)) continue;
       const std::size_t i = map.index(next);
       const std::int32_t step = mask[i] != 0 ? 0 : 1;
@@ -35,10 +35,10 @@ std::vector<Pixel> cheapest_detour(const OccupancyMap& map, const std::vector<st
       step == 0 ? open.push_front(next) : open.push_back(next);
     }
   }
-  if (cost[map.index(goal)] == kUnreached) return {};
+  if (cost[map.index(goal)] == unreached) return {};
   std::vector<Pixel> way{goal};
   while (way.back() != start) {
-    const Pixel side = kSides[arrived_by[map.index(way.back())]];
+    const Pixel side = sides[arrived_by[map.index(way.back())]];
     way.push_back({way.back().c - side.c, way.back().r - side.r});
   }
   return way;
