@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sampling-based path planning guided by a learned promising region.
+
+>>> import lrrt
+>>> m = lrrt.read_map("office.yaml")  # a picture, a map_server YAML or a MovingAI map  # doctest: +SKIP
+>>> result = lrrt.plan(m, start=(1.0, 2.0), goal=(14.5, 8.0))  # doctest: +SKIP
+>>> lrrt.draw(m, result=result).figure.savefig("path.png")  # doctest: +SKIP
+"""
+
+from importlib.metadata import version as _version
+
+from lrrt._core import (
+    CancelToken,
+    Encoder,
+    Encoding,
+    Error,
+    MapError,
+    ModelError,
+    ModelInfo,
+    OccupancyMap,
+    OnnxPredictor,
+    PlanResult,
+    PromisingRegion,
+    RegionPredictor,
+    RequestError,
+    Scenario,
+    planner_names,
+    read_scenarios,
+    shortest_path,
+)
+from lrrt.drawing import draw
+from lrrt.maps import read_map
+from lrrt.planning import default_predictor, plan
+
+__version__ = _version("lrrt")
+
+__all__ = [
+    "CancelToken",
+    "Encoder",
+    "Encoding",
+    "Error",
+    "MapError",
+    "ModelError",
+    "ModelInfo",
+    "OccupancyMap",
+    "OnnxPredictor",
+    "PlanResult",
+    "PromisingRegion",
+    "RegionPredictor",
+    "RequestError",
+    "Scenario",
+    "__version__",
+    "default_predictor",
+    "draw",
+    "plan",
+    "planner_names",
+    "read_map",
+    "read_scenarios",
+    "shortest_path",
+]

@@ -1,0 +1,238 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command line: ``lrrt plan``, ``lrrt predict``, ``lrrt info``.
+
+Exit codes: 0 done (a path was found), 2 bad input, 3 no path.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn, Optional
+
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from lrrt._core import Error, OccupancyMap, OnnxPredictor, PlanResult, planner_names
+from lrrt.drawing import draw
+from lrrt.maps import read_map
+from lrrt.planning import default_predictor, plan
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+EXIT_BAD_INPUT = 2
+EXIT_NO_PATH = 3
+
+app = typer.Typer(
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode="rich",
+    help="Plans paths on maps, guided by a network that marks where a path probably lies.\n\n"
+    "Coordinates are in map units: pixels (x right, y down) for pictures and MovingAI maps, metres for ROS map_server maps.\n\n"
+    "Exit codes: 0 done, 2 bad input, 3 no path.",
+)
+
+MapPath = Annotated[Path, typer.Argument(metavar="MAP", help="Picture, map_server .yaml or MovingAI .map.")]
+Start = Annotated[tuple[float, float], typer.Option(metavar="X Y", help="Where the path begins.")]
+Goal = Annotated[tuple[float, float], typer.Option(metavar="X Y", help="Where it ends.")]
+Model = Annotated[Optional[Path], typer.Option(metavar="FILE", help="ONNX model; the one that ships by default.")]
+Pixels = Annotated[bool, typer.Option("--pixels", help="Start and goal are pixels (x right, y down), whatever the map.")]
+Picture = Annotated[Optional[Path], typer.Option(metavar="FILE", help="Draw the outcome into this picture.")]
+Json = Annotated[bool, typer.Option("--json", help="Print one JSON object instead of a table.")]
+
+
+@app.command("plan")
+def plan_command(
+    map_path: MapPath,
+    start: Start,
+    goal: Goal,
+    planner: Annotated[str, typer.Option(help=f"One of {', '.join(planner_names())}.")] = "RRTstar",
+    strategy: Annotated[str, typer.Option(help="Where guided samples come from: region, or uniform for no guidance.")] = "region",
+    alpha: Annotated[float, typer.Option(help="Share of guided samples, 0 to 1.")] = 0.8,
+    model: Model = None,
+    stop: Annotated[str, typer.Option(help="first path, factor (near the shortest), or limit (use all the time).")] = "first",
+    cost_factor: Annotated[float, typer.Option(help="For --stop factor: how near to the shortest grid path.")] = 1.05,
+    time_limit: Annotated[float, typer.Option(metavar="SECONDS", help="Longest search.")] = 5.0,
+    reach: Annotated[float, typer.Option("--range", help="Longest extension of the tree; 0 chooses by the map.")] = 0.0,
+    radius: Annotated[float, typer.Option(help="Radius of a disc-shaped robot, map units; 0 is a point.")] = 0.0,
+    unknown: Annotated[str, typer.Option(help="What unknown pixels count as: occupied or free.")] = "occupied",
+    seed: Annotated[int, typer.Option(min=0, help="Same seed, same path.")] = 1,
+    pixels: Pixels = False,
+    as_json: Json = False,
+    picture: Picture = None,
+) -> None:
+    """Plan a path.
+
+    Example: [bold]lrrt plan maze.png --start 10.5 10.5 --goal 240 250 --picture plan.png[/bold]
+
+    Example: [bold]lrrt plan office.yaml --start -1.5 2 --goal 14 9.5 --radius 0.2 --json[/bold]
+    """
+    try:
+        map_, ends = _read(map_path, start, goal, pixels)
+        predictor = OnnxPredictor(model) if model is not None and strategy != "uniform" else None
+        result = plan(
+            map_,
+            *ends,
+            planner=planner,
+            strategy=strategy,
+            alpha=alpha,
+            predictor=predictor,
+            stop=stop,
+            cost_factor=cost_factor,
+            time_limit=time_limit,
+            range=reach,
+            radius=radius,
+            unknown=unknown,
+            seed=seed,
+            keep_tree=picture is not None,
+        )
+        if picture is not None:
+            _save(draw(map_, result=result, start=ends[0], goal=ends[1]), picture)
+    except Error as error:
+        _fail(error)
+    if as_json:
+        typer.echo(json.dumps(result_fields(result)))
+    else:
+        Console().print(_result_table(map_, result))
+    if not result.solved:
+        raise typer.Exit(EXIT_NO_PATH)
+
+
+@app.command("predict")
+def predict_command(
+    map_path: MapPath,
+    start: Start,
+    goal: Goal,
+    picture: Annotated[Path, typer.Option(metavar="FILE", help="Picture to write: the map with the region in green.")],
+    model: Model = None,
+    pixels: Pixels = False,
+    as_json: Json = False,
+) -> None:
+    """Mark the promising region only.
+
+    Example: [bold]lrrt predict maze.png --start 10.5 10.5 --goal 240 250 --picture region.png[/bold]
+    """
+    try:
+        map_, ends = _read(map_path, start, goal, pixels)
+        predictor = default_predictor() if model is None else OnnxPredictor(model)
+        region, timings = predictor.predict_timed(map_, *ends)
+        _save(draw(map_, region=region, start=ends[0], goal=ends[1]), picture)
+    except Error as error:
+        _fail(error)
+    if as_json:
+        fields = {"connected": region.connected, "area": region.area, "timings": timings, "picture": str(picture)}
+        typer.echo(json.dumps(fields))
+        return
+    table = _plain_table()
+    table.add_row("connected", "yes" if region.connected else "no")
+    table.add_row("area", f"{region.area:,d} pixels, {100 * region.area / max(1, int((map_.cells == 0).sum())):.1f} % of the free ones")
+    table.add_row("time", _times(timings))
+    table.add_row("picture", str(picture))
+    Console().print(table)
+
+
+@app.command("info")
+def info_command(
+    model: Annotated[Optional[Path], typer.Argument(metavar="[MODEL]", help="ONNX model; the one that ships by default.")] = None,
+    as_json: Json = False,
+) -> None:
+    """Tell what a model says of itself."""
+    try:
+        info = OnnxPredictor(model).info
+    except Error as error:
+        _fail(error)
+    fields: dict[str, Any] = {
+        "path": str(info.path),
+        "name": info.name,
+        "input_size": info.input_size,
+        "marker_side": info.marker_side,
+        "classes": info.classes,
+        "threshold": round(info.threshold, 6),
+        "training_data": info.training_data,
+        "training_budget": info.training_budget,
+        "commit": info.commit,
+        "runtime_version": info.runtime_version,
+    }
+    if as_json:
+        typer.echo(json.dumps(fields))
+        return
+    table = _plain_table()
+    for key, value in fields.items():
+        table.add_row(key.replace("_", " "), ", ".join(value) if isinstance(value, list) else str(value))
+    Console().print(table)
+
+
+def result_fields(result: PlanResult) -> dict[str, Any]:
+    """The fields of a result as JSON knows them; a cost without a path is null."""
+    region = result.region
+    return {
+        "status": result.status,
+        "solved": result.solved,
+        "path": result.path.tolist(),
+        "cost": result.cost if math.isfinite(result.cost) else None,
+        "iterations": result.iterations,
+        "nodes": result.nodes,
+        "draws": result.draws,
+        "cost_history": result.cost_history.tolist(),
+        "region": None
+        if region is None
+        else {"connected": region.connected, "area": region.area, "bridge_area": region.bridge_area},
+        "timings": result.timings,
+    }
+
+
+def _read(path: Path, start: tuple[float, float], goal: tuple[float, float], pixels: bool) -> tuple[OccupancyMap, list[Any]]:
+    map_ = read_map(path)
+    return map_, [map_.to_world(point) if pixels else point for point in (start, goal)]
+
+
+def _save(axes: Axes, picture: Path) -> None:
+    try:
+        axes.figure.savefig(picture)  # type: ignore[union-attr]
+    except (OSError, ValueError) as error:
+        raise Error(f"{picture}: cannot be written ({error}); expected a .png, .pdf or .svg in a folder that exists") from error
+
+
+def _fail(error: Exception) -> NoReturn:
+    Console(stderr=True, soft_wrap=True, highlight=False).print(f"[bold red]error:[/bold red] {_escaped(error)}")
+    raise typer.Exit(EXIT_BAD_INPUT) from error
+
+
+def _escaped(error: Exception) -> str:
+    from rich.markup import escape
+
+    return escape(str(error))
+
+
+def _plain_table() -> Table:
+    table = Table(box=None, show_header=False, padding=(0, 2, 0, 0))
+    table.add_column(style="bold")
+    table.add_column()
+    return table
+
+
+def _times(timings: dict[str, float]) -> str:
+    return ", ".join(f"{name} {value:.1f}" for name, value in timings.items()) + " ms"
+
+
+def _result_table(map_: OccupancyMap, result: PlanResult) -> Table:
+    unit = "m" if map_.is_metric else "pixels"
+    table = _plain_table()
+    table.add_row("status", result.status)
+    if result.solved:
+        table.add_row("cost", f"{result.cost:.3f} {unit}, {len(result.path)} points")
+    table.add_row("iterations", f"{result.iterations:,d}")
+    table.add_row("nodes", f"{result.nodes:,d}")
+    if result.region is not None:
+        bridged = result.region.bridge_area
+        table.add_row("region", f"{result.region.area:,d} pixels" + (f", {bridged:,d} of them to close gaps" if bridged else ""))
+    table.add_row("time", _times(result.timings))
+    return table
+
+
+def main() -> None:
+    """Entry point of the command ``lrrt``."""
+    app()

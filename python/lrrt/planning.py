@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The one call: a map, a start and a goal in, a path out."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lrrt import _core
+from lrrt._core import CancelToken, OccupancyMap, OnnxPredictor, PlanResult, RegionPredictor
+
+Point = Sequence[float] | npt.NDArray[np.floating[Any]]  #: (x, y) in map units
+
+_lock = threading.Lock()
+_default: OnnxPredictor | None = None
+
+
+def default_predictor() -> OnnxPredictor:
+    """The predictor of the shipped model, loaded at the first call and shared from then on.
+
+    Raises:
+        ModelError: the model or ONNX Runtime cannot be loaded.
+    """
+    global _default
+    with _lock:
+        if _default is None:
+            _default = OnnxPredictor()
+        return _default
+
+
+def plan(
+    map: OccupancyMap,
+    start: Point,
+    goal: Point,
+    *,
+    planner: str = "RRTstar",
+    strategy: str = "region",
+    alpha: float = 0.8,
+    predictor: RegionPredictor | None = None,
+    stop: str = "first",
+    cost_factor: float = 1.05,
+    time_limit: float = 5.0,
+    iteration_limit: int | None = None,
+    range: float = 0.0,
+    goal_bias: float = 0.05,
+    goal_tolerance: float = 0.0,
+    radius: float = 0.0,
+    unknown: str = "occupied",
+    seed: int = 1,
+    keep_tree: bool = False,
+    cancel: CancelToken | None = None,
+) -> PlanResult:
+    """Plans a path from start to goal, guided by the promising region that a network marks.
+
+    Lengths and points are in map units: pixels for pictures, metres for map_server maps. A call without an answer is
+    no error: ``result.status`` says why. Ctrl-C ends a search within some hundredths of a second.
+
+    Args:
+        map: where to plan.
+        start: (x, y) where the path begins.
+        goal: (x, y) where it ends.
+        planner: one of ``planner_names()``.
+        strategy: where guided samples come from: ``"region"``, or ``"uniform"`` for planning without guidance.
+        alpha: share of guided samples, 0 to 1; the others are uniform. 1 gives up completeness.
+        predictor: marks the region; None takes the shipped model (see ``default_predictor``).
+        stop: ``"first"`` path, ``"factor"`` (cost within ``cost_factor`` of the straightened shortest grid path), or
+            ``"limit"``: use all the time or iterations to shorten the path.
+        cost_factor: for ``stop="factor"``, at least 1.
+        time_limit: seconds of search; prediction is not counted.
+        iteration_limit: iterations of the planner, None for no limit.
+        range: longest extension of the tree; 0 chooses by the map.
+        goal_bias: share of iterations that aim at the goal (RRT, RRT*).
+        goal_tolerance: the path may end this far from the goal; 0 ends exactly there.
+        radius: of a disc-shaped robot; 0 plans for a point.
+        unknown: ``"occupied"`` or ``"free"``: what unknown pixels count as.
+        seed: same seed, same result, unless time ends the search.
+        keep_tree: fill ``result.tree``.
+        cancel: a token that another thread may use to end the search.
+
+    Raises:
+        RequestError: an option is out of its range, or a coordinate is not finite.
+        ModelError: the model cannot be loaded or fails.
+    """
+    if predictor is None and strategy != "uniform":
+        predictor = default_predictor()
+    return _core.plan(
+        map,
+        np.asarray(start, dtype=np.float64),
+        np.asarray(goal, dtype=np.float64),
+        planner=planner,
+        strategy=strategy,
+        alpha=alpha,
+        predictor=predictor,
+        stop=stop,
+        cost_factor=cost_factor,
+        time_limit=time_limit,
+        iteration_limit=iteration_limit,
+        range=range,
+        goal_bias=goal_bias,
+        goal_tolerance=goal_tolerance,
+        radius=radius,
+        unknown=unknown,
+        seed=seed,
+        keep_tree=keep_tree,
+        cancel=cancel,
+    )
