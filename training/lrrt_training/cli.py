@@ -4,13 +4,15 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Optional
+from typing import Annotated
 
 import typer
 
-from .store import MazeStore
+from .mazes import check_level
+from .store import MazeStore, check_split
 
 DATA = Path("data_cache")
+MODEL = Path("../models/default.onnx")
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -33,12 +35,16 @@ def train(
 
     parser = ArgumentParser()
     parser.add_class_arguments(TrainConfig, None)
-    values = parser.instantiate_classes(parser.parse_path(str(config)))
+    values = parser.instantiate(parser.parse_path(str(config)))
     settings = TrainConfig(**vars(values))
     if minutes > 0:
         for stage in settings.stages:
             stage.minutes = minutes
-    typer.echo(f"trained: {run(settings)}")
+    try:
+        typer.echo(f"trained: {run(settings)}")
+    except KeyboardInterrupt as stop:
+        typer.echo(str(stop) or "interrupted; the same command goes on", err=True)
+        raise typer.Exit(130) from None
 
 
 @app.command()
@@ -55,7 +61,7 @@ def generate(
 @app.command()
 def export(
     run: Annotated[Path, typer.Argument(help="Folder of a run (its last stage is taken) or a checkpoint.")],
-    output: Annotated[Path, typer.Option(help="ONNX file to write.")] = Path("../models/default.onnx"),
+    output: Annotated[Path, typer.Option(help="ONNX file to write.")] = MODEL,
     size: Annotated[int, typer.Option(help="Side of the network's input, pixels.")] = 256,
     training_data: Annotated[str, typer.Option(help="For the metadata: what it was trained on.")] = "",
     training_budget: Annotated[str, typer.Option(help="For the metadata: how long, on what.")] = "",
@@ -66,8 +72,7 @@ def export(
     from .export import TOLERANCE, export_onnx, metadata, parity
     from .train import load_module
 
-    checkpoint = max(run.glob("stage*.ckpt")) if run.is_dir() else run
-    module = load_module(checkpoint)
+    module = load_module(_last_checkpoint(run))
     output.parent.mkdir(parents=True, exist_ok=True)
     properties = metadata(output.stem, size, module.hparams.classes, training_data, training_budget)
     export_onnx(module.network, output, size, properties)
@@ -79,14 +84,14 @@ def export(
 
 @app.command()
 def evaluate(
-    model: Annotated[Path, typer.Argument(help="ONNX file.", exists=True, dir_okay=False)] = Path("../models/default.onnx"),
+    model: Annotated[Path, typer.Argument(help="ONNX file.", exists=True, dir_okay=False)] = MODEL,
     levels: Annotated[str, typer.Option(help="Levels, e.g. 21-49 or 21,35.")] = "21,25,31,35,45,49",
     mazes: Annotated[int, typer.Option(help="Mazes a level.")] = 200,
     split: Annotated[str, typer.Option(help="train, evaluation or test.")] = "test",
     data: Annotated[Path, typer.Option(help="Folder of the mazes.")] = DATA,
     threads: Annotated[int, typer.Option(help="Threads of ONNX Runtime.")] = 2,
     record: Annotated[bool, typer.Option(help="Write the scores to manifest.json and the model card.")] = False,
-    sheet: Annotated[Optional[Path], typer.Option(help="Also write a contact sheet of predictions (PNG).")] = None,
+    sheet: Annotated[Path | None, typer.Option(help="Also write a contact sheet of predictions (PNG).")] = None,
 ) -> None:
     """Score an exported model on held-out mazes."""
     from rich.console import Console
@@ -95,6 +100,10 @@ def evaluate(
 
     store = MazeStore(data)
     wanted = _levels(levels)
+    try:
+        check_split(split)
+    except ValueError as error:
+        raise typer.BadParameter(str(error)) from error
     store.generate(wanted, (split,))
     loaded = scoring.OnnxModel(model, threads)
     scores = scoring.evaluate(loaded, store, wanted, mazes, split)
@@ -106,15 +115,28 @@ def evaluate(
         scoring.contact_sheet(loaded, store, wanted, sheet)
 
 
+def _last_checkpoint(run: Path) -> Path:
+    """The checkpoint of the last stage in the folder of a run; a file is taken as it is."""
+    if run.is_file():
+        return run
+    checkpoints = sorted(run.glob("stage*.ckpt"), key=lambda path: int(path.stem.removeprefix("stage")))
+    if not checkpoints:
+        raise typer.BadParameter(f"{run}: no checkpoint (stage1.ckpt …) there; train first")
+    return checkpoints[-1]
+
+
 def _levels(text: str) -> list[int]:
     """ "21-25,31" → [21, 23, 25, 31]."""
     levels: list[int] = []
-    for part in text.split(","):
-        low, _, high = part.partition("-")
-        try:
-            levels += range(int(low), int(high or low) + 1, 2)
-        except ValueError as error:
-            raise typer.BadParameter(f"{text!r}: expected levels such as 21-49 or 21,35") from error
+    try:
+        for part in text.split(","):
+            low, dash, high = part.partition("-")
+            check_level(int(low))
+            levels += range(int(low), int(high if dash else low) + 1, 2)
+    except ValueError as error:
+        raise typer.BadParameter(f"{text!r}: expected odd levels such as 21-49 or 21,35") from error
+    if not levels:
+        raise typer.BadParameter(f"{text!r}: no level lies in it; expected levels such as 21-49 or 21,35")
     return levels
 
 

@@ -94,7 +94,8 @@ class MazeDataset(Dataset):
     """Sample i is a function of (seed, split, i) alone.
 
     An item is a dict: ``image`` (3, S, S) uint8, ``label`` (S, S) uint8 classes, ``ends`` (S, S) uint8 with the
-    blocks of start (1) and goal (2), ``level`` int. The level of every sample is drawn anew, so every batch mixes levels.
+    blocks of start (1) and goal (2), ``level`` int. The level of every sample is drawn anew, so every batch mixes
+    levels.
 
     Args:
         store: where the mazes come from.
@@ -104,7 +105,8 @@ class MazeDataset(Dataset):
         length: number of samples.
         seed: seed of the samples (the mazes have the store's).
         pixel_share: share of the samples whose map has several pixels a block; the others have one.
-        in_turn: takes levels and mazes in turn instead of at random: ``length`` / len(levels) different mazes of each level.
+        in_turn: takes levels and mazes in turn instead of at random: ``length`` / len(levels) different mazes of each
+            level.
     """
 
     def __init__(
@@ -158,7 +160,7 @@ class MazeDataset(Dataset):
 
 
 class ResumableSampler(Sampler[int]):
-    """Consecutive sample numbers from ``first`` on; every process of a distributed run takes its share of each batch."""
+    """Consecutive sample numbers from ``first`` on; each process of a distributed run takes its share of every step."""
 
     def __init__(self, first: int, batches: int, batch_size: int, rank: int = 0, processes: int = 1) -> None:
         self.first, self.batches, self.batch_size = first, batches, batch_size

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Accuracy, redundancy, metric and connectivity of an exported model on held-out mazes; manifest, card table, contact sheet."""
+"""Scores of an exported model on held-out mazes, and where they are shown: manifest, card table, contact sheet."""
 
 from __future__ import annotations
 
@@ -108,15 +108,15 @@ def write_card_table(card: Path, scores: Scores) -> None:
     Raises:
         ValueError: the card lacks the marks.
     """
-    text = card.read_text()
-    if CARD_BEGIN not in text or CARD_END not in text:
+    head, begin, rest = card.read_text().partition(CARD_BEGIN)
+    _, end, tail = rest.partition(CARD_END)
+    if not (begin and end):
         raise ValueError(f"{card}: expected the lines '{CARD_BEGIN}' and '{CARD_END}' around the table")
-    head, rest = text.split(CARD_BEGIN, 1)
-    _write(card, f"{head}{CARD_BEGIN}\n{markdown_table(scores)}\n{CARD_END}{rest.split(CARD_END, 1)[1]}")
+    _write(card, f"{head}{CARD_BEGIN}\n{markdown_table(scores)}\n{CARD_END}{tail}")
 
 
 def contact_sheet(model: OnnxModel, store: MazeStore, levels: list[int], path: Path, columns: int = 4) -> None:
-    """Predictions on test mazes as one picture: a row per level; the true path's colour shows what was found and missed."""
+    """Predictions on test mazes as one picture: a row per level; colours show what was found, missed and too much."""
     dataset = MazeDataset(store, "test", levels, model.size, columns * len(levels), in_turn=True)
     figure = Figure(figsize=(2.6 * columns, 2.75 * len(levels)), layout="constrained")
     axes = figure.subplots(len(levels), columns, squeeze=False)

@@ -25,11 +25,7 @@ def _neighbours(side: int) -> Neighbours:
     """Neighbouring cells of every cell of a side×side grid, cells numbered row by row."""
     steps = ((-1, 0), (1, 0), (0, -1), (0, 1))
     return tuple(
-        tuple(
-            (row + dr) * side + col + dc
-            for dr, dc in steps
-            if 0 <= row + dr < side and 0 <= col + dc < side
-        )
+        tuple((row + dr) * side + col + dc for dr, dc in steps if 0 <= row + dr < side and 0 <= col + dc < side)
         for row in range(side)
         for col in range(side)
     )

@@ -34,8 +34,8 @@ def targets(label: Tensor, classes: int) -> Tensor:
 class RegionModule(lightning.LightningModule):
     """One stage of training.
 
-    The stage ends when ``minutes`` have passed or ``samples`` were seen, whichever is given; the learning rate falls with the
-    share of it that is over. Both are kept in the checkpoint, so an interrupted stage goes on where it was.
+    The stage ends when ``minutes`` have passed or ``samples`` were seen, whichever is given; the learning rate falls
+    with the share of it that is over. Both are kept in the checkpoint, so an interrupted stage goes on where it was.
 
     Args:
         width, classes, aspp: see PaperNetwork.
@@ -90,6 +90,8 @@ class RegionModule(lightning.LightningModule):
             return -1
         for group in self.optimizers().param_groups:
             group["lr"] = self.hparams.learning_rate * learning_rate_factor(self.progress)
+        # dropout hangs on the sample number alone, so that an interrupted stage ends with the same weights
+        torch.manual_seed(self.samples_seen + self.global_rank)
         return None
 
     def training_step(self, batch: dict[str, Tensor], batch_idx: int) -> Tensor:

@@ -52,7 +52,7 @@ class ResNet18Encoder(nn.Module):
 
 
 class ResidualUpBlock(nn.Module):
-    """Doubles the resolution: transposed convolution (kernel 4, stride 2) in the leading layer and the residual path."""
+    """Doubles the resolution: transposed convolution (kernel 4, stride 2) in leading layer and residual path."""
 
     def __init__(self, inputs: int, outputs: int) -> None:
         super().__init__()
@@ -97,7 +97,7 @@ def _up_layer(inputs: int, outputs: int) -> nn.Sequential:
 
 
 class Decoder(nn.Module):
-    """Brings the context (S/32) back to full resolution; each output is joined by the encoder's features of its size."""
+    """Brings the context (S/32) back to full resolution; the encoder's features of its size join each output."""
 
     def __init__(self, context: int, skips: tuple[int, ...], outputs: int) -> None:
         super().__init__()

@@ -18,6 +18,12 @@ DEFAULT_COUNTS = {"train": 6000, "evaluation": 1000, "test": 1000}  #: mazes per
 _FORMAT = 1
 
 
+def check_split(split: str) -> None:
+    """Raises ValueError unless there is such a split."""
+    if split not in SPLITS:
+        raise ValueError(f"split {split!r}: expected one of {', '.join(SPLITS)}")
+
+
 def pack(occupied: np.ndarray) -> np.ndarray:
     """(N, m, m) bool → (N, ceil(m²/8)) uint8."""
     return np.packbits(occupied.reshape(len(occupied), -1), axis=1)
@@ -81,11 +87,12 @@ class MazeStore:
                 if not np.array_equal(file["settings"], self._settings(split)):
                     return None
                 return file["mazes"]
-        except (OSError, KeyError, ValueError, zipfile.BadZipFile):
+        except (OSError, EOFError, KeyError, ValueError, zipfile.BadZipFile):
             return None
 
     def mazes(self, split: str, level: int) -> np.ndarray:
         """(N, bytes) packed mazes of one level; ``unpack`` opens one."""
+        check_split(split)
         key = (split, level)
         if key not in self._cache:
             bits = self._load(split, level)
@@ -105,6 +112,8 @@ class MazeStore:
 
     def generate(self, levels: list[int], splits: tuple[str, ...] = SPLITS, workers: int = 2) -> int:
         """Makes every file that is missing, with a progress bar; returns how many it made."""
+        for split in splits:
+            check_split(split)
         for level in levels:
             mazes.check_level(level)
         jobs = [(s, m) for s in splits for m in sorted(set(levels)) if self._load(s, m) is None]

@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import time
+import warnings
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -16,7 +18,7 @@ from torch.utils.data import DataLoader
 
 from .data import MazeDataset, ResumableSampler, class_frequencies
 from .loss import balancing_weights
-from .module import RegionModule, targets
+from .module import RegionModule
 from .store import MazeStore
 
 ENDLESS = 10**9  #: batches; a stage ends by its own clock
@@ -49,11 +51,12 @@ class TrainConfig:
     runs: Path = Path("runs")
     workers: int = 1  #: processes that make samples
     save_every: float = 120.0  #: seconds between checkpoints
-    trainer: dict[str, Any] = field(default_factory=dict)  #: further arguments of lightning.Trainer (accelerator, devices, precision …)
+    #: further arguments of lightning.Trainer (accelerator, devices, precision …)
+    trainer: dict[str, Any] = field(default_factory=dict)
 
 
 class TimedCheckpoint(lightning.Callback):
-    """Saves every so many seconds and at the end, under a temporary name that is then renamed: the file is always whole."""
+    """Saves every so many seconds and at the end, under a temporary name that is then renamed: no file is half."""
 
     def __init__(self, path: Path, seconds: float) -> None:
         self.path, self.seconds = path, seconds
@@ -61,7 +64,7 @@ class TimedCheckpoint(lightning.Callback):
 
     def save(self, trainer: lightning.Trainer) -> None:
         temporary = self.path.with_suffix(".part")
-        trainer.save_checkpoint(temporary)
+        trainer.save_checkpoint(temporary, weights_only=False)
         if trainer.is_global_zero:
             os.replace(temporary, self.path)
         self._last = time.monotonic()
@@ -74,7 +77,7 @@ class TimedCheckpoint(lightning.Callback):
     def on_train_end(self, trainer: lightning.Trainer, module: lightning.LightningModule) -> None:
         self.save(trainer)
 
-    def on_exception(self, trainer: lightning.Trainer, module: lightning.LightningModule, exception: BaseException) -> None:
+    def on_exception(self, trainer: lightning.Trainer, _: lightning.LightningModule, exception: BaseException) -> None:
         if isinstance(exception, KeyboardInterrupt):
             self.save(trainer)
 
@@ -85,6 +88,9 @@ class LogLine(lightning.Callback):
     def __init__(self, title: str, seconds: float = 30.0) -> None:
         self.title, self.seconds = title, seconds
         self._last, self._samples = time.monotonic(), 0
+
+    def on_train_start(self, trainer: lightning.Trainer, module: RegionModule) -> None:
+        self._last, self._samples = time.monotonic(), module.samples_seen  # the speed is that of this process
 
     def on_train_batch_end(self, trainer: lightning.Trainer, module: RegionModule, *_: Any) -> None:
         now = time.monotonic()
@@ -109,9 +115,9 @@ class MazeData(lightning.LightningDataModule):
         self.dataset, self.batch_size, self.workers, self.first = dataset, batch_size, workers, first
 
     def train_dataloader(self) -> DataLoader:
-        trainer = self.trainer
-        sampler = ResumableSampler(self.first, ENDLESS // self.batch_size, self.batch_size, trainer.global_rank, trainer.world_size)
-        return DataLoader(self.dataset, self.batch_size, sampler=sampler, num_workers=self.workers, persistent_workers=False)
+        rank, processes = self.trainer.global_rank, self.trainer.world_size
+        sampler = ResumableSampler(self.first, ENDLESS // self.batch_size, self.batch_size, rank, processes)
+        return DataLoader(self.dataset, self.batch_size, sampler=sampler, num_workers=self.workers)
 
 
 def _weights(dataset: MazeDataset, classes: int) -> list[float]:
@@ -144,8 +150,9 @@ def run_stage(config: TrainConfig, number: int, previous: RegionModule | None, f
     if previous is not None:
         module.network.load_state_dict(previous.network.state_dict())
     title = f"{config.name} stage {number + 1}/{len(config.stages)}"
+    settings = {"accelerator": "auto", "devices": "auto", "precision": "bf16-mixed", "enable_progress_bar": False}
     trainer = lightning.Trainer(
-        **{"accelerator": "auto", "devices": "auto", "precision": "bf16-mixed", "enable_progress_bar": False, **config.trainer},
+        **{**settings, **config.trainer},
         max_epochs=1,
         logger=TensorBoardLogger(folder, name="log", version=f"stage{number + 1}"),
         callbacks=[TimedCheckpoint(checkpoint, config.save_every), LogLine(title)],
@@ -155,7 +162,9 @@ def run_stage(config: TrainConfig, number: int, previous: RegionModule | None, f
         log_every_n_steps=20,
     )
     data = MazeData(dataset, stage.batch_size, config.workers, _begun(checkpoint))
-    trainer.fit(module, data, ckpt_path=checkpoint if checkpoint.exists() else None, weights_only=True)
+    warnings.filterwarnings("ignore", ".*your dataloader is not resumable")  # it is: by the number of the first sample
+    with contextlib.suppress(SystemExit):  # what Lightning makes of Ctrl-C
+        trainer.fit(module, data, ckpt_path=checkpoint if checkpoint.exists() else None, weights_only=True)
     if trainer.interrupted:
         raise KeyboardInterrupt(f"stage {number + 1} was interrupted; the same command goes on from {checkpoint}")
     return module

@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Metrics on 5×5 maps small enough to count by hand."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import torch
+from lrrt_training.metrics import RegionMetrics, accuracy, is_connected, redundancy
+
+# # obstacle, . free, * path, S and G path at the start and the goal
+MAP = """
+#####
+#S..#
+#*#.#
+#*G.#
+#####
+"""
+
+
+def read(text: str) -> tuple[torch.Tensor, torch.Tensor]:
+    """Label and ends of a drawn map."""
+    rows = text.split()
+    label = [[".#*".index(c) if c in ".#*" else 2 for c in row] for row in rows]
+    ends = [[" SG".find(c) if c in "SG" else 0 for c in row] for row in rows]
+    return torch.tensor(label), torch.tensor(ends)
+
+
+def region(text: str) -> torch.Tensor:
+    """A drawn region: x inside."""
+    return torch.tensor([[c == "x" for c in row] for row in text.split()])
+
+
+LABEL, ENDS = read(MAP)
+EXACT = region("..... .x... .x... .xx.. .....")
+GAP = region("..... .x... ..... .xx.. .....")
+WIDE = region("..... .xxx. .x.x. .xxx. .....")
+WALLS = region("xxxxx xx..x xxx.x xxx.x xxxxx")
+NOTHING = torch.zeros(5, 5, dtype=torch.bool)
+
+CASES = {  # region: accuracy, redundancy, connected
+    "exact": (EXACT, 1.0, 0.0, True),
+    "gap": (GAP, 0.75, 0.0, False),
+    "wide": (WIDE, 1.0, 1.0, True),
+    "walls do not count": (WALLS, 1.0, 0.0, True),
+    "nothing": (NOTHING, 0.0, 0.0, False),
+}
+
+
+def test_the_drawing_is_read_as_meant():
+    assert LABEL.tolist()[1] == [1, 2, 0, 0, 1]
+    assert (LABEL == 2).sum() == 4
+    assert (LABEL == 1).sum() == 17
+    assert ENDS[1, 1] == 1
+    assert ENDS[3, 2] == 2
+    assert ENDS.sum() == 3
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_by_hand(name):
+    predicted, right, excess, connected = CASES[name]
+    assert accuracy(predicted[None], LABEL[None]).tolist() == [right]
+    assert redundancy(predicted[None], LABEL[None]).tolist() == [excess]
+    assert is_connected(predicted.numpy(), LABEL.numpy(), ENDS.numpy()) is connected
+
+
+def test_touching_corners_do_not_connect():
+    label, ends = read("##### #S.## #.G## #...# #####")
+    diagonal = region("..... .x... ..x.. ..... .....")
+    assert not is_connected(diagonal.numpy(), label.numpy(), ends.numpy())
+    diagonal[1, 2] = True
+    assert is_connected(diagonal.numpy(), label.numpy(), ends.numpy())
+
+
+def test_a_region_over_an_obstacle_does_not_connect():
+    label, ends = read("##### #S#G# #.#.# #...# #####")
+    through = region("..... .xxx. ..... ..... .....")
+    assert not is_connected(through.numpy(), label.numpy(), ends.numpy())
+    around = region("..... .x.x. .x.x. .xxx. .....")
+    assert is_connected(around.numpy(), label.numpy(), ends.numpy())
+
+
+def test_one_pixel_of_each_end_is_enough():
+    """A block has many pixels; the region may cover some of them only."""
+    label, ends = np.zeros((2, 6), dtype=int), np.array([[1, 1, 0, 0, 2, 2], [1, 1, 0, 0, 2, 2]])
+    predicted = np.array([[0, 1, 1, 1, 1, 0], [0, 0, 0, 0, 0, 0]], dtype=bool)
+    assert is_connected(predicted, label, ends)
+    predicted[0, 1] = False
+    assert not is_connected(predicted, label, ends)
+
+
+def test_a_map_without_path_is_no_division_by_zero():
+    label = torch.zeros(1, 2, 2, dtype=torch.long)
+    assert accuracy(torch.ones(1, 2, 2, dtype=torch.bool), label).tolist() == [0.0]
+    assert redundancy(torch.ones(1, 2, 2, dtype=torch.bool), label).tolist() == [4.0]
+
+
+def update(metrics: RegionMetrics, *cases: tuple[int, torch.Tensor]) -> RegionMetrics:
+    levels, regions = zip(*cases)
+    number = len(cases)
+    metrics.update(torch.stack(regions), LABEL.expand(number, 5, 5), ENDS.expand(number, 5, 5), torch.tensor(levels))
+    return metrics
+
+
+def test_means_of_every_level_and_of_all():
+    scores = update(RegionMetrics([9, 5, 7]), (5, EXACT), (5, GAP), (9, WIDE)).compute()
+    assert list(scores) == [5, 9, "all"], "a level without maps is left out"
+    assert scores[5] == {"accuracy": 0.875, "redundancy": 0.0, "metric": 0.125, "connectivity": 0.5, "count": 2}
+    assert scores[9] == {"accuracy": 1.0, "redundancy": 1.0, "metric": 1.0, "connectivity": 1.0, "count": 1}
+    assert scores["all"]["accuracy"] == pytest.approx(2.75 / 3)
+    assert scores["all"]["redundancy"] == pytest.approx(1 / 3)
+    assert scores["all"]["metric"] == pytest.approx(0.25 / 3 + 1 / 3)
+    assert scores["all"]["connectivity"] == pytest.approx(2 / 3)
+    assert scores["all"]["count"] == 3
+
+
+@pytest.mark.filterwarnings("ignore:The ``compute`` method")
+def test_no_map_at_all():
+    assert RegionMetrics([5]).compute() == {
+        "all": {"accuracy": 0.0, "redundancy": 0.0, "metric": 1.0, "connectivity": 0.0, "count": 0}
+    }
+
+
+def test_two_processes_together_count_as_one():
+    cases = [(5, EXACT), (5, GAP), (9, WIDE), (9, NOTHING), (5, WALLS)]
+    whole = update(RegionMetrics([5, 9]), *cases).compute()
+    one, two = update(RegionMetrics([5, 9]), *cases[:2]), update(RegionMetrics([5, 9]), *cases[2:])
+    other = two.sums.clone()
+    one.distributed_available_fn = lambda: True
+    one.dist_sync_fn = lambda mine, group: [mine, other]
+    assert one.compute() == whole
+
+
+def test_reset_forgets():
+    metrics = update(RegionMetrics([5]), (5, GAP))
+    metrics.reset()
+    assert update(metrics, (5, EXACT)).compute()[5]["accuracy"] == 1.0
