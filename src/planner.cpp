@@ -4,6 +4,8 @@
 #include <ompl/util/Console.h>
 
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -16,35 +18,61 @@
 namespace lrrt {
 namespace {
 
-[[noreturn]] void refuse(const char* option, double value, const char* expected) {
+[[noreturn]] void refuse(const char* name, double value, const char* expected) {
   std::ostringstream text;
-  text << option << " is " << value << ": expected " << expected;
+  text << name << " is " << value << ": expected " << expected;
   throw RequestError(text.str());
 }
 
-void check(const PlanOptions& options) {
-  const auto finite_from = [](double value, double low) { return std::isfinite(value) && value >= low; };
-  if (!(options.alpha >= 0.0 && options.alpha <= 1.0)) refuse("alpha", options.alpha, "a share from 0 to 1");
-  if (!(options.goal_bias >= 0.0 && options.goal_bias <= 1.0))
-    refuse("goal_bias", options.goal_bias, "a share from 0 to 1");
-  if (!finite_from(options.range, 0.0))
-    refuse("range", options.range, "0 (choose by the map) or a positive length in map units");
-  if (!finite_from(options.goal_tolerance, 0.0))
-    refuse("goal_tolerance", options.goal_tolerance, "0 or a positive length in map units");
-  if (!finite_from(options.cost_factor, 1.0)) refuse("cost_factor", options.cost_factor, "at least 1");
-  check_planner_name(options.planner);
-  if (!(options.time_limit > 0.0)) refuse("time_limit", options.time_limit, "a positive number of seconds");
+void check_share(const char* name, double value) {
+  if (!(value >= 0.0 && value <= 1.0)) refuse(name, value, "a share from 0 to 1");
 }
 
-void check(const PlanRequest& request) {
-  if (!request.start.allFinite())
-    refuse("start", request.start.x() + request.start.y(), "finite coordinates in map units");
-  if (!request.goal.allFinite()) refuse("goal", request.goal.x() + request.goal.y(), "finite coordinates in map units");
+void check_at_least(const char* name, double value, double least, const char* expected) {
+  if (!(std::isfinite(value) && value >= least)) refuse(name, value, expected);
+}
+
+/// RRT and RRT-Connect end at their first path, and RRT-Connect needs no goal bias.
+void check_for_planner(const PlanOptions& options) {
+  check_planner_name(options.planner);
+  if (options.stop != Stop::first && options.planner != "RRTstar") {
+    throw RequestError("planner " + options.planner +
+                       " ends at its first path: use Stop::first, or RRTstar to shorten it");
+  }
+  if (options.goal_bias == 0.0 && options.goal_tolerance == 0.0 && options.planner != "RRTConnect") {
+    throw RequestError(
+        "goal_bias and goal_tolerance are both 0: a random sample never hits the goal exactly; raise one of them");
+  }
+}
+
+void check(const PlanOptions& options) {
+  check_share("alpha", options.alpha);
+  check_share("goal_bias", options.goal_bias);
+  check_at_least("range", options.range, 0.0, "0 (choose by the map) or a positive length in map units");
+  check_at_least("goal_tolerance", options.goal_tolerance, 0.0, "0 or a positive length in map units");
+  check_at_least("cost_factor", options.cost_factor, 1.0, "at least 1");
+  if (!(options.time_limit > 0.0)) refuse("time_limit", options.time_limit, "a positive number of seconds");
+  check_for_planner(options);
+}
+
+void check_point(const char* name, const Eigen::Vector2d& point) {
+  for (const double coordinate : {point.x(), point.y()}) {
+    if (!std::isfinite(coordinate)) refuse(name, coordinate, "two finite coordinates in map units");
+  }
+}
+
+void check(const PlanRequest& request, const PlanOptions& options) {
+  check_point("start", request.start);
+  check_point("goal", request.goal);
+  const double least_range = 1e-3 * request.map.get().resolution();
+  if (options.range > 0.0 && options.range < least_range) {
+    refuse("range", options.range, "at least a thousandth of a pixel, in map units; or 0 to choose by the map");
+  }
 }
 
 /// The map that the robot, shrunk to a point, sees: unknown resolved, obstacles grown by its radius.
 OccupancyMap planning_map(const PlanRequest& request) {
-  return inflated(request.map.resolved(request.unknown), request.radius);
+  return inflated(request.map.get().resolved(request.unknown), request.radius);
 }
 
 /// What can be said without a search; nothing when a search is worth it.
@@ -60,22 +88,29 @@ std::optional<PlanStatus> hopeless(const OccupancyMap& map, const PlanRequest& r
 }
 
 /// The predicted region, its gaps closed: start and goal are joined by now, so there is a way to bridge them.
-PromisingRegion predict(const RegionPredictor& predictor, const OccupancyMap& map, const PlanRequest& request,
-                        PlanTimings& timings) {
-  const Prediction prediction = predictor.predict(map, request.start, request.goal);
+std::shared_ptr<const PromisingRegion> predict(const RegionPredictor& predictor, const OccupancyMap& map,
+                                               const PlanRequest& request, PlanTimings& timings) {
+  Prediction prediction = predictor.predict(map, request.start, request.goal);
   const Stopwatch watch;
-  PromisingRegion region = prediction.region.bridged(map, OccupancyMap::pixel_of(map.to_pixel(request.start)),
-                                                     OccupancyMap::pixel_of(map.to_pixel(request.goal)));
+  const PromisingRegion& region = prediction.region;
+  if (region.width() != map.width() || region.height() != map.height()) {
+    throw RequestError("the predictor returned a region of " + std::to_string(region.width()) + "×" +
+                       std::to_string(region.height()) + " pixels for a map of " + std::to_string(map.width()) + "×" +
+                       std::to_string(map.height()) + ": it must be as large as the map");
+  }
+  if (!region.connected()) {
+    prediction.region = prediction.region.bridged(map, OccupancyMap::pixel_of(map.to_pixel(request.start)),
+                                                  OccupancyMap::pixel_of(map.to_pixel(request.goal)));
+  }
   timings.encode = prediction.timings.encode;
   timings.infer = prediction.timings.infer;
   timings.region = prediction.timings.region + watch.total_ms();
-  return region;
+  return std::make_shared<const PromisingRegion>(std::move(prediction.region));
 }
 
-MixedSampler sampler_for(const OccupancyMap& map, const std::optional<PromisingRegion>& region,
-                         const PlanOptions& options) {
+MixedSampler sampler_for(const OccupancyMap& map, const PromisingRegion* region, const PlanOptions& options) {
   std::unique_ptr<SamplingStrategy> guided;
-  if (region && region->area() > 0) guided = std::make_unique<RegionStrategy>(*region);
+  if (region != nullptr && region->area() > 0) guided = std::make_unique<RegionStrategy>(*region);
   return {std::move(guided), UniformStrategy(map.width(), map.height()), options.alpha, options.seed};
 }
 
@@ -102,7 +137,7 @@ Planner::Planner(std::shared_ptr<const RegionPredictor> predictor, PlanOptions o
 }
 
 PlanResult Planner::plan(const PlanRequest& request) const {
-  check(request);
+  check(request, options_);
   PlanResult result;
   const Stopwatch watch;
   OccupancyMap map = planning_map(request);
@@ -111,17 +146,18 @@ PlanResult Planner::plan(const PlanRequest& request) const {
     result.timings.prepare = result.timings.total = watch.total_ms();
     return result;
   }
-  if ((request.goal - request.start).norm() <= options_.goal_tolerance) {
-    return arrived(request, watch);
-  }
+  if ((request.goal - request.start).norm() <= options_.goal_tolerance) return arrived(request, watch);
   const auto collision = std::make_shared<const CollisionMap>(std::move(map));
   result.timings.prepare = watch.total_ms();
 
   if (options_.strategy != Strategy::uniform) {
-    result.promising = predict(*predictor_, collision->map(), request, result.timings);
+    result.region = predict(*predictor_, collision->map(), request, result.timings);
   }
-  MapSearch search(collision, request.start, request.goal, sampler_for(collision->map(), result.promising, options_),
-                   options_);
+
+  Stopwatch search_watch;
+  MapSearch search(collision, request.start, request.goal, sampler_for(collision->map(), result.region.get(), options_),
+                   options_, request.cancel);
+  result.timings.prepare += search_watch.lap_ms();
   search.run(result);
   result.timings.total = watch.total_ms();
   return result;

@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,14 +44,14 @@ Strategy strategy_from_string(const std::string& word);
 /// When to stop. A time or iteration limit always ends the search too.
 enum class Stop {
   first,   ///< at the first path
-  factor,  ///< when the cost is within PlanOptions::cost_factor of the reference, see there
-  limit,   ///< only at a limit: use all of the time or the iterations to shorten the path
+  factor,  ///< when the cost is within PlanOptions::cost_factor of the reference, see there (RRT* only)
+  limit,   ///< only at a limit: use all of the time or the iterations to shorten the path (RRT* only)
 };
 
 /// @throws RequestError for an unknown word; the text lists the known ones.
 Stop stop_from_string(const std::string& word);
 
-/// Lets another thread end a search; copies share one flag.
+/// Lets another thread end a search. Copies share one flag, and a flag that was raised stays up: one token, one search.
 class CancelToken {
  public:
   void cancel() { flag_->store(true, std::memory_order_relaxed); }
@@ -61,13 +61,14 @@ class CancelToken {
   std::shared_ptr<std::atomic<bool>> flag_ = std::make_shared<std::atomic<bool>>(false);
 };
 
-/// What to plan.
+/// What to plan. The map is only looked at: it must outlive the call.
 struct PlanRequest {
-  const OccupancyMap& map;
+  std::reference_wrapper<const OccupancyMap> map;
   Eigen::Vector2d start;                    ///< map units
   Eigen::Vector2d goal;                     ///< map units
   double radius = 0.0;                      ///< of a disc-shaped robot, map units; 0 plans for a point
   UnknownIs unknown = UnknownIs::occupied;  ///< whether the robot may enter unknown pixels
+  CancelToken cancel{};                     ///< ends the search from another thread
 };
 
 /// How to plan.
@@ -85,13 +86,13 @@ struct PlanOptions {
   std::size_t iteration_limit = std::numeric_limits<std::size_t>::max();
   std::uint64_t seed = 1;  ///< same seed, same result on one thread (unless time ends the search)
   bool keep_tree = false;  ///< return the tree's edges
-  CancelToken cancel{};
 };
 
 /// Wall-clock time of each stage, milliseconds.
 struct PlanTimings {
-  double prepare = 0.0;  ///< inflation, reachability, distance field
-  double encode = 0.0;   ///< see PredictTimings
+  double prepare =
+      0.0;  ///< inflation, reachability, distance field; choosing a range, the reference cost, setting up OMPL
+  double encode = 0.0;  ///< see PredictTimings
   double infer = 0.0;
   double region = 0.0;
   double plan = 0.0;   ///< the sampling-based search
@@ -121,7 +122,7 @@ struct PlanResult {
   DrawCounts draws{};                                     ///< samples drawn from the region and uniformly
   std::vector<CostStep> cost_history;                     ///< strictly falling costs (RRT*)
   std::vector<TreeEdge> tree;                             ///< only with PlanOptions::keep_tree
-  std::optional<PromisingRegion> promising;               ///< the region that was used
+  std::shared_ptr<const PromisingRegion> region;          ///< the region that was used
   PlanTimings timings{};
 
   bool solved() const { return status == PlanStatus::solved; }

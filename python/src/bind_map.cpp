@@ -13,45 +13,50 @@ namespace {
 
 using CellArray = DenseArray<std::uint8_t>;
 
-std::vector<Cell> cells_from(const CellArray& cells) {
-  if (cells.ndim() != 2) {
-    throw MapError("a map needs a 2-D array (height, width), but the array has " + std::to_string(cells.ndim()) +
-                   " dimensions");
-  }
-  std::vector<Cell> result(static_cast<std::size_t>(cells.size()));
-  const std::uint8_t* source = cells.data();
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    if (source[i] > 2) {
-      throw MapError("cell value " + std::to_string(source[i]) + " at flat index " + std::to_string(i) +
-                     ": expected 0 or False (free), 1 or True (occupied) or 2 (unknown)");
-    }
-    result[i] = static_cast<Cell>(source[i]);
-  }
-  return result;
-}
-
 /// Accepts bool and integer arrays; a float array is refused because 0.5 has no meaning here.
-OccupancyMap from_array(const py::array& occupied, std::optional<double> resolution,
-                        const std::array<double, 3>& origin) {
-  const char kind = occupied.dtype().kind();
+py::array checked_cells(const py::object& occupied) {
+  const auto array = py::array::ensure(occupied);
+  if (!array) throw MapError("occupied is no array: expected an (H, W) array of bool or of integers 0, 1, 2");
+  if (array.ndim() != 2 || array.size() == 0) {
+    throw MapError("a map needs a 2-D array (height, width) with at least one pixel, but this one has " +
+                   std::to_string(array.ndim()) + " dimensions and " + std::to_string(array.size()) + " values");
+  }
+  const char kind = array.dtype().kind();
   if (kind != 'b' && kind != 'u' && kind != 'i') {
     throw MapError(std::string("array of kind '") + kind +
                    "': expected bool (True = occupied) or integers 0 free, 1 occupied, 2 unknown");
   }
-  if (kind == 'i' || occupied.itemsize() > 1) {
-    const auto low = py::cast<double>(occupied.attr("min")());
-    const auto high = py::cast<double>(occupied.attr("max")());
+  if (array.size() > max_map_pixels) {
+    throw MapError("array of " + std::to_string(array.size()) + " pixels: expected at most " +
+                   std::to_string(max_map_pixels));
+  }
+  if (kind != 'b') {  // before the cast to bytes hides what was there
+    const auto low = py::cast<double>(array.attr("min")());
+    const auto high = py::cast<double>(array.attr("max")());
     if (low < 0 || high > 2) {
-      throw MapError("cell values from " + std::to_string(low) + " to " + std::to_string(high) +
-                     ": expected 0 (free), 1 (occupied) or 2 (unknown)");
+      std::ostringstream text;
+      text << "cell values from " << low << " to " << high << ": expected 0 (free), 1 (occupied) or 2 (unknown)";
+      throw MapError(text.str());
     }
   }
-  const CellArray cells(occupied);
-  std::vector<Cell> values = cells_from(cells);
-  const int height = static_cast<int>(cells.shape(0));
-  const int width = static_cast<int>(cells.shape(1));
-  if (!resolution) return OccupancyMap(width, height, std::move(values));
-  return OccupancyMap(width, height, std::move(values), *resolution, Pose2{origin[0], origin[1], origin[2]});
+  return array;
+}
+
+OccupancyMap from_array(const py::object& occupied, std::optional<double> resolution,
+                        const std::optional<std::array<double, 3>>& origin) {
+  const CellArray array(checked_cells(occupied));
+  std::vector<Cell> cells(static_cast<std::size_t>(array.size()));
+  std::memcpy(cells.data(), array.data(), cells.size());
+  const int height = static_cast<int>(array.shape(0));
+  const int width = static_cast<int>(array.shape(1));
+  if (resolution) {
+    const std::array<double, 3> pose = origin.value_or(std::array<double, 3>{0.0, 0.0, 0.0});
+    return OccupancyMap(width, height, std::move(cells), *resolution, Pose2{pose[0], pose[1], pose[2]});
+  }
+  if (origin)
+    throw MapError(
+        "an origin needs a resolution: without one, map units are pixels and the origin is the top left corner");
+  return OccupancyMap(width, height, std::move(cells));
 }
 
 /// A read-only view of the map's own cells.
@@ -97,7 +102,7 @@ void bind_map(py::module_& module) {
   py::class_<OccupancyMap, std::shared_ptr<OccupancyMap>>(module, "OccupancyMap",
                                                           "A grid of free, occupied and unknown pixels and its frame.")
       .def_static("from_array", &from_array, py::arg("occupied"), py::arg("resolution") = py::none(),
-                  py::arg("origin") = std::array<double, 3>{0.0, 0.0, 0.0},
+                  py::arg("origin") = py::none(),
                   "Map from an (H, W) array: bool (True = occupied) or integers (0 free, 1 occupied, 2 unknown).\n\n"
                   "Without `resolution` map units are pixels, x right and y down. With it (metres per pixel) they are\n"
                   "metres, y up, and `origin` (x, y, yaw) is the pose of the lower-left corner, as in ROS map_server.\n"

@@ -12,9 +12,8 @@ namespace lrrt::python {
 namespace {
 
 /// Plans in a second thread while this one looks for Python's signals, so that Ctrl-C ends a long search at once.
-PlanResult plan_interruptibly(const Planner& planner, const PlanRequest& request) {
+PlanResult plan_interruptibly(const Planner& planner, PlanRequest request) {
   using std::chrono_literals::operator""ms;
-  CancelToken cancel = planner.options().cancel;
   std::future<PlanResult> future;
   const auto ready = [&] {
     const py::gil_scoped_release release;
@@ -23,7 +22,7 @@ PlanResult plan_interruptibly(const Planner& planner, const PlanRequest& request
   future = std::async(std::launch::async, [&] { return planner.plan(request); });
   while (!ready()) {
     if (PyErr_CheckSignals() == 0) continue;
-    cancel.cancel();
+    request.cancel.cancel();
     {
       const py::gil_scoped_release release;
       future.wait();
@@ -58,8 +57,9 @@ PlanResult plan(const OccupancyMap& map, const Eigen::Vector2d& start, const Eig
   if (iteration_limit) options.iteration_limit = *iteration_limit;
   options.seed = seed;
   options.keep_tree = keep_tree;
-  if (cancel) options.cancel = *cancel;
-  return plan_interruptibly(Planner(std::move(predictor), options), {map, start, goal, radius, unknown_from(unknown)});
+  PlanRequest request{map, start, goal, radius, unknown_from(unknown)};
+  if (cancel) request.cancel = *cancel;
+  return plan_interruptibly(Planner(std::move(predictor), options), request);
 }
 
 py::array_t<double> points_array(const std::vector<Eigen::Vector2d>& points) {
@@ -123,10 +123,7 @@ void bind_result(py::module_& module) {
                              "(K, 3) float64: milliseconds, iteration and cost of every better path.")
       .def_property_readonly("tree", &tree_array, "(M, 4) float64, map units: x0, y0, x1, y1; with keep_tree=True.")
       .def_property_readonly(
-          "region",
-          [](const PlanResult& r) {
-            return r.promising ? std::make_shared<PromisingRegion>(*r.promising) : std::shared_ptr<PromisingRegion>();
-          },
+          "region", [](const PlanResult& r) { return std::const_pointer_cast<PromisingRegion>(r.region); },
           "The promising region that was used, or None.")
       .def_property_readonly(
           "timings", [](const PlanResult& r) { return timings_dict(r.timings); },

@@ -14,13 +14,11 @@ namespace {
 struct Encoding {
   std::vector<std::uint8_t> image;
   InputFit fit;
-  int map_width;
-  int map_height;
 };
 
 Encoding encode(const Encoder& encoder, const OccupancyMap& map, const Eigen::Vector2d& start,
                 const Eigen::Vector2d& goal) {
-  Encoding result{{}, {}, map.width(), map.height()};
+  Encoding result;
   result.fit = encoder.encode(map, start, goal, result.image);
   return result;
 }
@@ -38,18 +36,20 @@ void check_shape(const py::array& array, py::ssize_t rows, py::ssize_t columns, 
                      std::to_string(columns) + ")");
 }
 
-py::array_t<std::uint8_t> to_input(const Encoding& encoding, const DenseArray<std::uint8_t>& values,
-                                   std::uint8_t fill) {
-  check_shape(values, encoding.map_height, encoding.map_width, "to_input takes a map-sized array");
+py::array_t<std::uint8_t> to_input(const Encoding& encoding, const py::array& given, std::uint8_t fill) {
+  if (given.itemsize() != 1 || (given.dtype().kind() != 'u' && given.dtype().kind() != 'b')) {
+    throw RequestError("to_input takes a uint8 or bool array; other numbers would be cut to bytes");
+  }
+  const DenseArray<std::uint8_t> values(given);
+  check_shape(values, encoding.fit.map_height, encoding.fit.map_width, "to_input takes a map-sized array");
   const std::vector<std::uint8_t> source(values.data(), values.data() + values.size());
   const auto side = static_cast<py::ssize_t>(encoding.fit.size);
-  return to_array(encoding.fit.to_input(source, encoding.map_width, fill), {side, side});
+  return to_array(encoding.fit.to_input(source, fill), {side, side});
 }
 
 py::array_t<float> to_map(const Encoding& encoding, const DenseArray<float>& plane) {
   check_shape(plane, encoding.fit.size, encoding.fit.size, "to_map takes an array of the input's size");
-  return to_array(encoding.fit.to_map(plane.data(), encoding.map_width, encoding.map_height),
-                  {encoding.map_height, encoding.map_width});
+  return to_array(encoding.fit.to_map(plane.data()), {encoding.fit.map_height, encoding.fit.map_width});
 }
 
 void bind_encoder(py::module_& module) {

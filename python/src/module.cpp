@@ -6,7 +6,7 @@ PYBIND11_MODULE(_core, module) {
   namespace py = pybind11;
   module.doc() = "Compiled core of lrrt: maps, promising regions and guided planners.";
 
-  static py::exception<lrrt::Error> error(module, "Error", PyExc_ValueError);
+  const auto& error = py::register_exception<lrrt::Error>(module, "Error", PyExc_ValueError);
   py::register_exception<lrrt::MapError>(module, "MapError", error.ptr());
   py::register_exception<lrrt::ModelError>(module, "ModelError", error.ptr());
   py::register_exception<lrrt::RequestError>(module, "RequestError", error.ptr());

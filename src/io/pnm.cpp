@@ -101,10 +101,11 @@ void read_binary_bits(Reader& reader, Image& image) {
   const std::size_t row_bytes = (width + 7) / 8;
   const auto raster = reader.raster(row_bytes * static_cast<std::size_t>(image.height));
   image.pixels.resize(samples_of(image));
-  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    const std::size_t column = i % width;
-    const auto byte = static_cast<unsigned char>(raster[i / width * row_bytes + column / 8]);
-    image.pixels[i] = (byte >> (7 - column % 8) & 1) != 0 ? 0 : 255;  // a set bit is black
+  for (std::size_t row = 0; row < static_cast<std::size_t>(image.height); ++row) {
+    for (std::size_t column = 0; column < width; ++column) {
+      const auto byte = static_cast<unsigned char>(raster[row * row_bytes + column / 8]);
+      image.pixels[row * width + column] = (byte >> (7 - column % 8) & 1) != 0 ? 0 : 255;  // a set bit is black
+    }
   }
 }
 

@@ -18,7 +18,7 @@ cv::Mat to_mat(const Image& image) {
   cv::Mat mat(image.height, image.width, CV_8UC(channels));
   const std::uint8_t* pixel = image.pixels.data();
   for (int r = 0; r < mat.rows; ++r) {
-    std::uint8_t* out = mat.ptr<std::uint8_t>(r);
+    auto* out = mat.ptr<std::uint8_t>(r);
     for (int c = 0; c < mat.cols; ++c, pixel += image.channels, out += channels) {
       const bool grey = image.channels < 3;
       for (int k = 0; k < channels && k < 3; ++k) out[k] = pixel[grey ? 0 : 2 - k];

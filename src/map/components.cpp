@@ -5,24 +5,13 @@
 #include <opencv2/imgproc.hpp>
 
 namespace lrrt {
-namespace {
-
-std::vector<std::uint8_t> free_mask(const OccupancyMap& map) {
-  std::vector<std::uint8_t> mask(map.size());
-  std::transform(map.cells().begin(), map.cells().end(), mask.begin(),
-                 [](Cell cell) { return static_cast<std::uint8_t>(cell == Cell::free); });
-  return mask;
-}
-
-}  // namespace
-
 PixelBox united(const PixelBox& a, const PixelBox& b) {
   const int c = std::min(a.c, b.c);
   const int r = std::min(a.r, b.r);
   return {c, r, std::max(a.c + a.width, b.c + b.width) - c, std::max(a.r + a.height, b.r + b.height) - r};
 }
 
-Components::Components(const OccupancyMap& map) : Components(map.width(), map.height(), free_mask(map)) {}
+Components::Components(const OccupancyMap& map) : Components(map.width(), map.height(), map.free_mask()) {}
 
 Components::Components(int width, int height, const std::vector<std::uint8_t>& mask)
     : width_(width), height_(height), labels_(mask.size()) {

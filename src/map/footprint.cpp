@@ -1,37 +1,51 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "lrrt/map/footprint.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <string>
+#include <utility>
 
+#include "distance_transform.hpp"
 #include "lrrt/error.hpp"
 
 namespace lrrt {
+namespace {
 
-OccupancyMap inflated(const OccupancyMap& map, double radius) {
+/// The open pixels whose eight neighbours are open too; outside the picture nothing is.
+std::vector<std::uint8_t> shrunk(const std::vector<std::uint8_t>& open, int width, int height) {
+  std::vector<std::uint8_t> result(open.size(), 0);
+  const auto at = [&](int c, int r) {
+    return static_cast<std::size_t>(r) * static_cast<std::size_t>(width) + static_cast<std::size_t>(c);
+  };
+  for (int r = 1; r < height - 1; ++r) {
+    for (int c = 1; c < width - 1; ++c) {
+      bool all = true;
+      for (int k = -1; k <= 1; ++k) all = all && open[at(c - 1, r + k)] && open[at(c, r + k)] && open[at(c + 1, r + k)];
+      result[at(c, r)] = static_cast<std::uint8_t>(all);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+OccupancyMap inflated(OccupancyMap map, double radius) {
   if (!std::isfinite(radius) || radius < 0.0) {
     throw RequestError("robot radius " + std::to_string(radius) + " must be zero or a positive number of map units");
   }
   if (radius == 0.0) return map;
+  // The gap between two pixel squares is the distance between the centre of one and the centres of the 3×3 block around
+  // the other, so shrinking by one pixel turns the centre-to-centre transform into the square-to-square distance.
   const int width = map.width();
   const int height = map.height();
-  // The gap between two pixel squares is the distance between the centre of one and the centres of the 3×3 block around
-  // the other, so one dilation turns the centre-to-centre transform into the square-to-square distance that is needed.
-  cv::Mat1b free(height + 2, width + 2, std::uint8_t{0});
-  for (int r = 0; r < height; ++r) {
-    for (int c = 0; c < width; ++c) free(r + 1, c + 1) = static_cast<std::uint8_t>(map.at({c, r}) == Cell::free);
-  }
-  cv::Mat1b shrunk;
-  cv::erode(free, shrunk, cv::Mat::ones(3, 3, CV_8U), cv::Point(-1, -1), 1, cv::BORDER_CONSTANT, cv::Scalar(0));
-  cv::Mat1f gap;
-  cv::distanceTransform(shrunk, gap, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
-  std::vector<Cell> cells = map.cells();
+  const std::vector<std::int64_t> squared_gap =
+      squared_distances(shrunk(map.free_mask(), width, height), width, height);
   const double pixels = radius / map.resolution();
-  for (int r = 0; r < height; ++r) {
-    for (int c = 0; c < width; ++c) {
-      if (free(r + 1, c + 1) != 0 && gap(r + 1, c + 1) < pixels) cells[map.index({c, r})] = Cell::occupied;
-    }
+  std::vector<Cell> cells = map.cells();
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const bool fits = static_cast<double>(squared_gap[i]) >= pixels * pixels;
+    if (!fits && cells[i] == Cell::free) cells[i] = Cell::occupied;
   }
   return map.with_cells(std::move(cells));
 }

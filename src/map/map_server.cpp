@@ -36,7 +36,7 @@ std::string text_of(double value) {
 /// One YAML document whose fields are read with errors that name file, field, value and expectation.
 class Fields {
  public:
-  Fields(YAML::Node root, std::string source) : root_(std::move(root)), source_(std::move(source)) {
+  Fields(const YAML::Node& root, std::string source) : root_(root), source_(std::move(source)) {
     if (!root_.IsMap()) {
       throw MapError(source_ +
                      ": not a map_server file; expected lines `field: value` with image, resolution, origin, " +

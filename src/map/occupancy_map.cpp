@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -17,6 +18,11 @@ void check_size(int width, int height, std::size_t cells) {
     throw MapError("map size " + std::to_string(width) + "×" + std::to_string(height) +
                    " is empty: both sides must be at least 1 pixel");
   }
+  if (std::int64_t{width} > max_map_pixels / height) {
+    throw MapError("a map of " + std::to_string(width) + "×" + std::to_string(height) +
+                   " pixels is too large: at most " + std::to_string(max_map_pixels) +
+                   " pixels in all; use a coarser map or crop it");
+  }
   const auto expected = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   if (cells != expected) {
     throw MapError("a map of " + std::to_string(width) + "×" + std::to_string(height) + " pixels needs " +
@@ -25,12 +31,18 @@ void check_size(int width, int height, std::size_t cells) {
 }
 
 void check_frame(double resolution, const Pose2& origin) {
-  if (!std::isfinite(resolution) || resolution <= 0.0) {
-    throw MapError("map resolution " + std::to_string(resolution) + " must be a positive number of metres per pixel");
+  // Beyond these bounds pixels cannot be told apart any more in double precision, or OMPL's distances overflow.
+  constexpr double finest = 1e-6;
+  constexpr double coarsest = 1e6;
+  constexpr double farthest = 1e9;
+  if (!(resolution >= finest && resolution <= coarsest)) {
+    std::ostringstream text;
+    text << "map resolution " << resolution << ": expected metres per pixel, from " << finest << " to " << coarsest;
+    throw MapError(text.str());
   }
-  if (!std::isfinite(origin.x) || !std::isfinite(origin.y) || !std::isfinite(origin.yaw)) {
+  if (!(std::abs(origin.x) <= farthest && std::abs(origin.y) <= farthest && std::isfinite(origin.yaw))) {
     throw MapError("map origin [" + std::to_string(origin.x) + ", " + std::to_string(origin.y) + ", " +
-                   std::to_string(origin.yaw) + "] must hold finite numbers");
+                   std::to_string(origin.yaw) + "]: expected finite numbers, at most 1e9 metres from zero");
   }
 }
 
@@ -80,6 +92,13 @@ Eigen::Vector2d OccupancyMap::to_world(const Eigen::Vector2d& pixel) const {
   const double u = pixel.x() * resolution_;
   const double v = (height_ - pixel.y()) * resolution_;
   return {origin_.x + cos_yaw_ * u - sin_yaw_ * v, origin_.y + sin_yaw_ * u + cos_yaw_ * v};
+}
+
+std::vector<std::uint8_t> OccupancyMap::free_mask() const {
+  std::vector<std::uint8_t> mask(cells_.size());
+  std::transform(cells_.begin(), cells_.end(), mask.begin(),
+                 [](Cell cell) { return static_cast<std::uint8_t>(cell == Cell::free); });
+  return mask;
 }
 
 Bounds OccupancyMap::bounds() const {

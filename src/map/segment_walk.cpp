@@ -11,6 +11,8 @@ namespace {
 /// Centre-to-centre distances bound how far a pixel's points can be from a blocked pixel only up to half a diagonal at
 /// each end, √2 together; the rest is for rounding.
 constexpr double slack = 1.5;
+/// Two crossings nearer than this, in pixels, are one corner: quotients that should be equal differ by rounding.
+constexpr double corner_width = 1e-9;
 /// Below this clearance a leap is hardly longer than a step and costs more.
 constexpr float leap_from = 4.0F;
 
@@ -58,7 +60,7 @@ bool SegmentWalk::is_free(const Eigen::Vector2d& from, const Eigen::Vector2d& to
       continue;
     }
     travelled = std::max(travelled, std::min(leave_x, leave_y) * length);
-    if (leave_x == leave_y) {
+    if (std::abs(leave_x - leave_y) * length <= corner_width) {
       if (field_.at({pixel.c + x.step, pixel.r}) <= 0.0F || field_.at({pixel.c, pixel.r + y.step}) <= 0.0F)
         return false;
       pixel = {pixel.c + x.step, pixel.r + y.step};

@@ -8,11 +8,11 @@
 #include <ompl/geometric/PathGeometric.h>
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
+#include <tuple>
 
+#include "lrrt/error.hpp"
 #include "lrrt/map/shortest_path.hpp"
-#include "lrrt/stopwatch.hpp"
 
 namespace lrrt {
 namespace {
@@ -23,10 +23,12 @@ namespace og = ompl::geometric;
 ob::StateSpacePtr plane_over(const OccupancyMap& map) {
   auto space = std::make_shared<ob::RealVectorStateSpace>(2);
   const Bounds box = map.bounds();
+  // A hair wider, so that a point on the map's edge is not lost to the rounding of its conversion.
+  const double slack = 1e-9 * map.resolution();
   ob::RealVectorBounds bounds(2);
   for (unsigned int axis = 0; axis < 2; ++axis) {
-    bounds.setLow(axis, box.low[axis]);
-    bounds.setHigh(axis, box.high[axis]);
+    bounds.setLow(axis, box.low[axis] - slack);
+    bounds.setHigh(axis, box.high[axis] + slack);
   }
   space->setBounds(bounds);
   return space;
@@ -68,17 +70,18 @@ double suitable_range(const CollisionMap& map) {
 }
 
 MapSearch::MapSearch(std::shared_ptr<const CollisionMap> map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
-                     MixedSampler sampler, const PlanOptions& options)
+                     MixedSampler sampler, const PlanOptions& options, CancelToken cancel)
     : map_(std::move(map)),
       start_(start),
       goal_(goal),
       options_(options),
-      projection_(std::make_shared<PlaneProjection>()) {
+      projection_(std::make_shared<PlaneProjection>()),
+      limits_(std::make_shared<SearchLimits>(options.time_limit, options.iteration_limit, std::move(cancel))) {
   const ob::StateSpacePtr space = plane_over(map_->map());
   si_ = std::make_shared<ob::SpaceInformation>(space);
   si_->setStateValidityChecker(std::make_shared<MapValidityChecker>(si_, map_, projection_));
-  si_->setMotionValidator(std::make_shared<MapMotionValidator>(si_, map_, projection_));
-  source_ = std::make_shared<GuidedSource>(map_->map(), std::move(sampler), projection_);
+  si_->setMotionValidator(std::make_shared<MapMotionValidator>(si_, map_, projection_, limits_));
+  source_ = std::make_shared<GuidedSource>(map_, std::move(sampler), projection_);
   use_guided_sampler(*si_, source_);
   si_->setup();
 
@@ -120,39 +123,30 @@ double MapSearch::reference_cost() const {
 
 void MapSearch::run(PlanResult& result) {
   record_costs(result);
-  bool out_of_time = false;
-  const Stopwatch watch;
-  const double limit_ms = options_.time_limit * 1e3;
+  limits_->restart();
   // OMPL's planners ask once an iteration, so the condition also counts them.
-  const ob::PlannerTerminationCondition stop([&] {
-    if (iterations_ >= options_.iteration_limit || options_.cancel.cancelled()) return true;
-    out_of_time = watch.total_ms() >= limit_ms;
-    if (out_of_time) return true;
-    ++iterations_;
-    return false;
-  });
-  planner_.planner->solve(stop);
-  result.timings.plan = watch.total_ms();
-  result.iterations = iterations_;
+  const ob::PlannerTerminationCondition stop([this] { return limits_->next_iteration(); });
+  const ob::PlannerStatus status = planner_.planner->solve(stop);
+  result.timings.plan = limits_->elapsed_ms();
+  result.iterations = limits_->iterations();
   result.nodes = planner_.nodes();
   result.draws = source_->counts();
   if (problem_->hasExactSolution()) {
     read_path(result);
-  } else if (options_.cancel.cancelled()) {
-    result.status = PlanStatus::cancelled;
+  } else if (status == ob::PlannerStatus::INVALID_START || status == ob::PlannerStatus::INVALID_GOAL) {
+    throw Error("OMPL refused the query: " + status.asString() + ", though start and goal are free pixels of the map");
   } else {
-    result.status = out_of_time ? PlanStatus::time_limit : PlanStatus::iteration_limit;
+    result.status = limits_->reason();
   }
   if (options_.keep_tree) read_tree(result);
 }
 
 void MapSearch::record_costs(PlanResult& result) {
-  problem_->setIntermediateSolutionCallback([this, &result, watch = Stopwatch()](const ob::Planner*,
-                                                                                 const std::vector<const ob::State*>&,
-                                                                                 const ob::Cost cost) {
-    const bool better = result.cost_history.empty() || cost.value() < result.cost_history.back().cost;
-    if (better) result.cost_history.push_back({watch.total_ms(), iterations_, cost.value()});
-  });
+  problem_->setIntermediateSolutionCallback(
+      [this, &result](const ob::Planner*, const std::vector<const ob::State*>&, const ob::Cost cost) {
+        const bool better = result.cost_history.empty() || cost.value() < result.cost_history.back().cost;
+        if (better) result.cost_history.push_back({limits_->elapsed_ms(), limits_->iterations(), cost.value()});
+      });
 }
 
 void MapSearch::read_path(PlanResult& result) const {
@@ -162,7 +156,7 @@ void MapSearch::read_path(PlanResult& result) const {
   result.cost = 0.0;
   for (std::size_t i = 1; i < result.path.size(); ++i) result.cost += (result.path[i] - result.path[i - 1]).norm();
   const bool better = result.cost_history.empty() || result.cost < result.cost_history.back().cost;
-  if (better) result.cost_history.push_back({result.timings.plan, iterations_, result.cost});
+  if (better) result.cost_history.push_back({result.timings.plan, limits_->iterations(), result.cost});
 }
 
 void MapSearch::read_tree(PlanResult& result) const {
@@ -176,6 +170,10 @@ void MapSearch::read_tree(PlanResult& result) const {
       result.tree.push_back({from, projection_->read(data.getVertex(child).getState())});
     }
   }
+  // OMPL lists nodes in the order of its neighbour structure, which draws its pivots at random.
+  const auto numbers = [](const TreeEdge& e) { return std::make_tuple(e.from.x(), e.from.y(), e.to.x(), e.to.y()); };
+  std::sort(result.tree.begin(), result.tree.end(),
+            [&](const TreeEdge& a, const TreeEdge& b) { return numbers(a) < numbers(b); });
 }
 
 }  // namespace lrrt

@@ -27,10 +27,15 @@ double MapValidityChecker::clearance(const ompl::base::State* state) const {
 
 MapMotionValidator::MapMotionValidator(const ompl::base::SpaceInformationPtr& si,
                                        std::shared_ptr<const CollisionMap> map,
-                                       std::shared_ptr<const MapProjection> projection)
-    : ompl::base::MotionValidator(si), map_(std::move(map)), projection_(std::move(projection)) {}
+                                       std::shared_ptr<const MapProjection> projection,
+                                       std::shared_ptr<SearchLimits> limits)
+    : ompl::base::MotionValidator(si),
+      map_(std::move(map)),
+      projection_(std::move(projection)),
+      limits_(std::move(limits)) {}
 
 bool MapMotionValidator::checkMotion(const ompl::base::State* from, const ompl::base::State* to) const {
+  if (limits_ && limits_->interrupted_at_motion()) return false;
   const bool free = map_->is_free(projection_->read(from), projection_->read(to));
   ++(free ? valid_ : invalid_);
   return free;

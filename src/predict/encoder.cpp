@@ -36,9 +36,11 @@ PixelBox part_that_matters(const OccupancyMap& map, Pixel start, Pixel goal) {
   return {c, r, std::min(map.width(), box.c + box.width + 1) - c, std::min(map.height(), box.r + box.height + 1) - r};
 }
 
-InputFit fit(int size, const PixelBox& crop) {
+InputFit fit(const OccupancyMap& map, int size, const PixelBox& crop) {
   const int extent = std::max(crop.width, crop.height);
   InputFit result;
+  result.map_width = map.width();
+  result.map_height = map.height();
   result.size = size;
   result.crop = crop;
   const int whole = size / extent;
@@ -76,8 +78,8 @@ void paint(const cv::Mat1b& bright, std::uint8_t obstacle, std::uint8_t free, cv
 
 cv::Rect marker(const InputFit& fit, Pixel pixel, int least_side) {
   const int side = std::max(least_side, static_cast<int>(std::ceil(fit.scale)));
-  const double x = fit.placed.c + (pixel.c - fit.crop.c + 0.5) * fit.scale;
-  const double y = fit.placed.r + (pixel.r - fit.crop.r + 0.5) * fit.scale;
+  const double x = fit.placed.c + (pixel.c - fit.crop.c + 0.5) * fit.scale_x();
+  const double y = fit.placed.r + (pixel.r - fit.crop.r + 0.5) * fit.scale_y();
   const cv::Rect square(static_cast<int>(std::lround(x - side / 2.0)), static_cast<int>(std::lround(y - side / 2.0)),
                         side, side);
   return square & cv::Rect(0, 0, fit.size, fit.size);
@@ -85,21 +87,29 @@ cv::Rect marker(const InputFit& fit, Pixel pixel, int least_side) {
 
 }  // namespace
 
-std::vector<std::uint8_t> InputFit::to_input(const std::vector<std::uint8_t>& values, int map_width,
-                                             std::uint8_t fill) const {
+std::vector<std::uint8_t> InputFit::to_input(const std::vector<std::uint8_t>& values, std::uint8_t fill) const {
+  const auto width = static_cast<std::size_t>(map_width);
+  if (values.size() != width * static_cast<std::size_t>(map_height)) {
+    throw RequestError("to_input takes one value per pixel of the map, " + std::to_string(map_width) + "×" +
+                       std::to_string(map_height) + ", but " + std::to_string(values.size()) + " were given");
+  }
   std::vector<std::uint8_t> result(static_cast<std::size_t>(size) * static_cast<std::size_t>(size), fill);
-  const auto source = [this](int i, int side) { return std::min(side - 1, static_cast<int>((i + 0.5) / scale)); };
+  const auto source = [](int i, double scale, int side) {
+    return std::min(side - 1, static_cast<int>((i + 0.5) / scale));
+  };
   std::vector<int> columns(static_cast<std::size_t>(placed.width));
-  for (int i = 0; i < placed.width; ++i) columns[static_cast<std::size_t>(i)] = crop.c + source(i, crop.width);
+  for (int i = 0; i < placed.width; ++i) {
+    columns[static_cast<std::size_t>(i)] = crop.c + source(i, scale_x(), crop.width);
+  }
   for (int j = 0; j < placed.height; ++j) {
-    const auto row = static_cast<std::size_t>(crop.r + source(j, crop.height)) * static_cast<std::size_t>(map_width);
+    const std::size_t row = static_cast<std::size_t>(crop.r + source(j, scale_y(), crop.height)) * width;
     auto* target = result.data() + static_cast<std::size_t>(placed.r + j) * static_cast<std::size_t>(size) + placed.c;
     for (const int column : columns) *target++ = values[row + static_cast<std::size_t>(column)];
   }
   return result;
 }
 
-std::vector<float> InputFit::to_map(const float* plane, int map_width, int map_height) const {
+std::vector<float> InputFit::to_map(const float* plane) const {
   std::vector<float> result(static_cast<std::size_t>(map_width) * static_cast<std::size_t>(map_height), 0.0F);
   const cv::Mat1f input(size, size, const_cast<float*>(plane));
   cv::Mat1f place = cv::Mat1f(map_height, map_width, result.data())(to_rect(crop));
@@ -121,7 +131,7 @@ InputFit Encoder::encode(const OccupancyMap& map, const Eigen::Vector2d& start, 
                          std::vector<std::uint8_t>& image) const {
   const Pixel start_pixel = free_pixel(map, start, "start");
   const Pixel goal_pixel = free_pixel(map, goal, "goal");
-  const InputFit result = fit(spec_.size, part_that_matters(map, start_pixel, goal_pixel));
+  const InputFit result = fit(map, spec_.size, part_that_matters(map, start_pixel, goal_pixel));
   const cv::Mat1b bright = brightness(map, result);
   const cv::Rect start_marker = marker(result, start_pixel, spec_.marker_side);
   const cv::Rect goal_marker = marker(result, goal_pixel, spec_.marker_side);

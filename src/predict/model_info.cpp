@@ -2,6 +2,7 @@
 #include "model_info.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -42,6 +43,12 @@ class Reader {
     return result;
   }
 
+  int whole(const std::string& key, int low, int high) const {
+    const double value = number(key, low, high);
+    if (value != std::floor(value)) fail(key, "is '" + text(key) + "', expected a whole number");
+    return static_cast<int>(value);
+  }
+
  private:
   const std::filesystem::path& path_;
   const MetadataLookup& lookup_;
@@ -58,7 +65,14 @@ Colours read_colours(const Reader& reader) {
   const std::string text = reader.text("colours");
   try {
     const auto json = nlohmann::json::parse(text);
-    const auto colour = [&](const char* key) { return json.at(key).get<Rgb>(); };
+    const auto colour = [&](const char* key) {
+      const auto levels = json.at(key).get<std::vector<int>>();
+      const bool fits =
+          levels.size() == 3 && std::all_of(levels.begin(), levels.end(), [](int v) { return v >= 0 && v <= 255; });
+      if (!fits) reader.fail("colours", std::string("has a '") + key + "' that is not three numbers from 0 to 255");
+      return Rgb{static_cast<std::uint8_t>(levels[0]), static_cast<std::uint8_t>(levels[1]),
+                 static_cast<std::uint8_t>(levels[2])};
+    };
     return {colour("start"), colour("goal"), colour("free"), colour("obstacle"), colour("promising")};
   } catch (const nlohmann::json::exception& error) {
     reader.fail("colours", std::string("is not an object of [red, green, blue] lists (") + error.what() + ")");
@@ -75,8 +89,8 @@ ModelInfo read_model_info(const std::filesystem::path& path, const MetadataLooku
   ModelInfo info;
   info.path = path;
   info.name = reader.text("name");
-  info.input.size = static_cast<int>(reader.number("input_size", 8, 8192));
-  info.input.marker_side = static_cast<int>(reader.number("marker_side", 1, info.input.size));
+  info.input.size = reader.whole("input_size", 8, 8192);
+  info.input.marker_side = reader.whole("marker_side", 1, info.input.size);
   info.input.colours = read_colours(reader);
   info.classes = split(reader.text("classes"));
   const auto promising = std::find(info.classes.begin(), info.classes.end(), "promising");
@@ -92,7 +106,7 @@ ModelInfo read_model_info(const std::filesystem::path& path, const MetadataLooku
 }
 
 std::filesystem::path default_model_path() {
-  if (const char* chosen = std::getenv("LRRT_MODEL")) return chosen;
+  if (const char* chosen = std::getenv("LRRT_MODEL"); chosen != nullptr && *chosen != '\0') return chosen;
   const std::filesystem::path here = own_path().parent_path();
   std::vector<std::filesystem::path> places = {here / "models" / "default.onnx",
                                                here / ".." / "share" / "lrrt" / "models" / "default.onnx"};

@@ -120,9 +120,8 @@ class OnnxPredictor::Session {
     session_.Run(Ort::RunOptions{nullptr}, &input_name, &workspace->input, 1, &output_name, &workspace->output, 1);
     timings.infer = watch.lap_ms();
     const float* promising = workspace->probability.data() + info_.promising * Workspace::plane(info_);
-    PromisingRegion region(map, fit.to_map(promising, map.width(), map.height()),
-                           OccupancyMap::pixel_of(map.to_pixel(start)), OccupancyMap::pixel_of(map.to_pixel(goal)),
-                           info_.threshold);
+    PromisingRegion region(map, fit.to_map(promising), OccupancyMap::pixel_of(map.to_pixel(start)),
+                           OccupancyMap::pixel_of(map.to_pixel(goal)), info_.threshold);
     give_back(std::move(workspace));
     timings.region = watch.lap_ms();
     return {std::move(region), timings};
@@ -167,9 +166,13 @@ class OnnxPredictor::Session {
 };
 
 OnnxPredictor::OnnxPredictor(const std::filesystem::path& model, OnnxOptions options) {
-  if (!std::filesystem::is_regular_file(model)) {
+  std::error_code ignored;  // a path that the system cannot even look up is no file either
+  if (!std::filesystem::is_regular_file(model, ignored)) {
     throw ModelError("model " + model.string() +
                      " does not exist or is not a file: name an ONNX file exported by the training package");
+  }
+  if (options.threads < 0 || options.threads > 1024) {
+    throw RequestError("threads is " + std::to_string(options.threads) + ": expected 0 (choose) to 1024");
   }
   open_onnx_runtime();
   try {

@@ -18,7 +18,7 @@ constexpr std::uint32_t oldest_api = 21;
 
 std::vector<std::string> candidates() {
   std::vector<std::string> places;
-  if (const char* chosen = std::getenv("LRRT_ONNXRUNTIME")) return {chosen};
+  if (const char* chosen = std::getenv("LRRT_ONNXRUNTIME"); chosen != nullptr && *chosen != '\0') return {chosen};
   places.push_back((own_path().parent_path() / "libonnxruntime.so.1").string());
 #ifdef LRRT_DEFAULT_ONNXRUNTIME
   places.emplace_back(LRRT_DEFAULT_ONNXRUNTIME);

@@ -2,8 +2,10 @@
 #pragma once
 
 // The runtime is opened by hand, so that one binary runs with any version that is new enough (its symbols are
-// versioned).
+// versioned). The header keeps the runtime's table of functions in a static: under a namespace of our own, or another
+// module of the process that uses the same header with another runtime would share it.
 #define ORT_API_MANUAL_INIT
+#define Ort lrrt_ort
 #include <onnxruntime_cxx_api.h>
 #undef ORT_API_MANUAL_INIT
 

@@ -3,7 +3,9 @@
 #include <array>
 #include <deque>
 #include <limits>
+#include <string>
 
+#include "lrrt/error.hpp"
 #include "lrrt/region/promising_region.hpp"
 
 namespace lrrt {
@@ -47,7 +49,14 @@ std::vector<Pixel> cheapest_detour(const OccupancyMap& map, const std::vector<st
 }  // namespace
 
 PromisingRegion PromisingRegion::bridged(const OccupancyMap& map, Pixel start, Pixel goal, int halo) const {
+  if (map.width() != width_ || map.height() != height_) {
+    throw RequestError("a region of " + std::to_string(width_) + "×" + std::to_string(height_) +
+                       " pixels cannot be bridged on a map of " + std::to_string(map.width()) + "×" +
+                       std::to_string(map.height()) + ": give the map it was predicted for");
+  }
+  if (halo < 0) throw RequestError("halo of " + std::to_string(halo) + " pixels: expected zero or more");
   if (connected_ || !map.is_free(start) || !map.is_free(goal)) return *this;
+  halo = std::min(halo, std::max(width_, height_));
   const std::vector<Pixel> way = cheapest_detour(map, mask_, start, goal);
   PromisingRegion result = *this;
   for (const Pixel p : way) {

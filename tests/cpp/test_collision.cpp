@@ -38,6 +38,31 @@ TEST(DistanceField, EqualsBruteForce) {
   }
 }
 
+TEST(DistanceField, IsExactOnWideMaps) {
+  for (const int width : {6000, 50000}) {
+    std::vector<Cell> cells(static_cast<std::size_t>(width) * 60, Cell::free);
+    const OccupancyMap map = OccupancyMap(width, 60, std::move(cells));
+    const DistanceField field(map);
+    for (int c = 0; c < width; c += 7) {
+      for (int r = 0; r < 60; r += 7) {
+        ASSERT_EQ(field.at({c, r}), static_cast<float>(std::min({c + 1, width - c, r + 1, 60 - r})))
+            << width << ' ' << c;
+      }
+    }
+  }
+}
+
+TEST(DistanceField, IsExactFarFromASinglePixelOfAWideMap) {
+  constexpr int width = 20000;
+  std::vector<Cell> cells(static_cast<std::size_t>(width) * 101, Cell::free);
+  cells[50U * width + 10000U] = Cell::occupied;
+  const DistanceField field(OccupancyMap(width, 101, std::move(cells)));
+  for (int dc = -45; dc <= 45; ++dc) {
+    const auto edge = static_cast<float>(std::min(51, 51 - 20));
+    EXPECT_FLOAT_EQ(field.at({10000 + dc, 70}), std::min(edge, std::hypot(static_cast<float>(dc), 20.0F)));
+  }
+}
+
 TEST(SegmentWalk, EqualsClippingEveryPixel) {
   Random random(12);
   int free = 0;
@@ -82,6 +107,21 @@ TEST(SegmentWalk, DoesNotCutCorners) {
   EXPECT_TRUE(walk.is_free({0.5, 0.5}, {0.5, 1.5}));
   EXPECT_TRUE(walk.is_free({0.5, 1.5}, {1.5, 1.5}));
   EXPECT_FALSE(walk.is_free({0.6, 0.5}, {1.5, 1.5}));
+}
+
+TEST(SegmentWalk, FindsEveryExactCorner) {
+  // Ends on multiples of 1/16, the line exactly through the corner (8, 8), one of the two pixels beside it blocked.
+  Random random(15);
+  for (int i = 0; i < 20000; ++i) {
+    const Eigen::Vector2d half((1.0 + static_cast<double>(random.index(100))) / 16.0,
+                               (1.0 + static_cast<double>(random.index(100))) / 16.0);
+    std::vector<Cell> cells(256, Cell::free);
+    cells[i % 2 == 0 ? 7 * 16 + 8 : 8 * 16 + 7] = Cell::occupied;
+    const DistanceField field(OccupancyMap(16, 16, std::move(cells)));
+    const SegmentWalk walk(field);
+    const Eigen::Vector2d corner(8.0, 8.0);
+    ASSERT_FALSE(walk.is_free(corner - half, corner + half)) << half.transpose();
+  }
 }
 
 TEST(SegmentWalk, PointsThatAreNowhereAreNotFree) {

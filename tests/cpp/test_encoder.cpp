@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 
 #include "lrrt/error.hpp"
 #include "lrrt/predict/encoder.hpp"
@@ -100,14 +102,37 @@ TEST(Encoder, TheWayBackUndoesTheWayIn) {
     const InputFit fit = Encoder({64, 5, {}}).encode(map, point, point, image);
     std::vector<std::uint8_t> values(map.size());
     for (std::uint8_t& value : values) value = static_cast<std::uint8_t>(random.index(200));
-    const std::vector<std::uint8_t> input = fit.to_input(values, map.width(), 255);
+    const std::vector<std::uint8_t> input = fit.to_input(values, 255);
     const std::vector<float> plane(input.begin(), input.end());
-    const std::vector<float> back = fit.to_map(plane.data(), map.width(), map.height());
+    const std::vector<float> back = fit.to_map(plane.data());
     for (int r = 0; r < map.height(); ++r) {
       for (int c = 0; c < map.width(); ++c) {
         const bool shown =
             c >= fit.crop.c && c < fit.crop.c + fit.crop.width && r >= fit.crop.r && r < fit.crop.r + fit.crop.height;
         ASSERT_NEAR(back[map.index({c, r})], shown ? static_cast<float>(values[map.index({c, r})]) : 0.0F, 1e-3F);
+      }
+    }
+  }
+}
+
+TEST(Encoder, LabelsLieWhereThePictureShowsThem) {
+  Random random(33);
+  std::vector<std::uint8_t> image;
+  for (int i = 0; i < 100; ++i) {
+    // long and thin, scaled down: the shorter side is rounded
+    const int width = 8 + static_cast<int>(random.index(20));
+    const int height = 600 + static_cast<int>(random.index(900));
+    std::vector<Cell> cells(static_cast<std::size_t>(width * height), Cell::free);
+    std::vector<std::uint8_t> label(cells.size(), 0);
+    const int half = height / 2;
+    for (std::size_t k = static_cast<std::size_t>(half * width); k < cells.size(); ++k) label[k] = 255;
+    const InputFit fit = Encoder({64, 1, {}}).encode({width, height, cells}, {0.5, 0.5}, {0.5, 0.5}, image);
+    const std::vector<std::uint8_t> input = fit.to_input(label, 0);
+    const std::vector<float> back = fit.to_map(std::vector<float>(input.begin(), input.end()).data());
+    for (int r = 0; r < height; ++r) {
+      if (std::abs(r - half) > 2.0 / fit.scale) {
+        ASSERT_NEAR(back[static_cast<std::size_t>(r * width + width / 2)], r < half ? 0.0F : 255.0F, 1.0F)
+            << r << " of " << height;
       }
     }
   }

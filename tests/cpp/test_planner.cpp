@@ -101,7 +101,7 @@ TEST_P(EveryPlanner, IsHonestOnRandomMapsWithRandomRegions) {
     const double radius = i % 3 == 0 ? random.uniform(0.0, 2.0) : 0.0;
     PlanOptions options = unguided(GetParam());
     options.strategy = i % 2 == 0 ? Strategy::region : Strategy::uniform;
-    options.stop = i % 5 == 0 ? Stop::factor : Stop::first;
+    options.stop = i % 5 == 0 && GetParam() == "RRTstar" ? Stop::factor : Stop::first;
     options.cost_factor = 1.3;
     options.iteration_limit = 30000;
     options.seed = static_cast<std::uint64_t>(i);
@@ -128,8 +128,9 @@ TEST_P(EveryPlanner, TheSameSeedGivesTheSameResult) {
     PlanOptions options = unguided(GetParam());
     options.strategy = Strategy::region;
     options.iteration_limit = 3000;
-    options.stop = Stop::limit;
+    options.stop = GetParam() == "RRTstar" ? Stop::limit : Stop::first;
     options.time_limit = 60.0;
+    options.keep_tree = true;
     const PlanResult first = Planner(corridor(), options).plan({map, start, goal});
     const PlanResult second = Planner(corridor(), options).plan({map, start, goal});
     options.seed = 2;
@@ -137,6 +138,8 @@ TEST_P(EveryPlanner, TheSameSeedGivesTheSameResult) {
     EXPECT_EQ(first.status, second.status);
     EXPECT_EQ(first.path, second.path);
     EXPECT_EQ(first.nodes, second.nodes);
+    EXPECT_TRUE(std::equal(first.tree.begin(), first.tree.end(), second.tree.begin(), second.tree.end(),
+                           [](const TreeEdge& a, const TreeEdge& b) { return a.from == b.from && a.to == b.to; }));
     EXPECT_EQ(first.iterations, second.iterations);
     different += static_cast<int>(first.path != other.path);
   }
@@ -208,10 +211,10 @@ TEST(Planner, BridgesARegionThatDoesNotJoinStartAndGoal) {
   options.strategy = Strategy::region;
   const auto empty = std::make_shared<FixedPredictor>(FixedPredictor::Kind::empty);
   const PlanResult result = Planner(empty, options).plan({map, {5, 5}, {50, 50}});
-  ASSERT_TRUE(result.promising.has_value());
-  EXPECT_TRUE(result.promising->connected());
-  EXPECT_GT(result.promising->bridge_area(), 0U);
-  EXPECT_EQ(result.promising->bridge_area(), result.promising->area());
+  ASSERT_TRUE(result.region != nullptr);
+  EXPECT_TRUE(result.region->connected());
+  EXPECT_GT(result.region->bridge_area(), 0U);
+  EXPECT_EQ(result.region->bridge_area(), result.region->area());
 }
 
 TEST(Planner, LimitsEndTheSearch) {
@@ -226,8 +229,36 @@ TEST(Planner, LimitsEndTheSearch) {
   const PlanResult timed = Planner(nullptr, options).plan({map, {1, 1}, {59, 59}});
   EXPECT_EQ(timed.status, PlanStatus::solved);
   EXPECT_GE(timed.timings.plan, 50.0);
-  options.cancel.cancel();
-  EXPECT_EQ(Planner(nullptr, options).plan({map, {1, 1}, {59, 59}}).status, PlanStatus::cancelled);
+  PlanRequest request{map, {1, 1}, {59, 59}};
+  request.cancel.cancel();
+  EXPECT_EQ(Planner(nullptr, options).plan(request).status, PlanStatus::cancelled);
+}
+
+TEST(Planner, TimeAlsoEndsAnIterationOfManyMotions) {
+  // RRT-Connect extends until it is blocked, within one iteration: here by many millions of motions.
+  const OccupancyMap map = test::map_from_rows(std::vector<std::string>(40, std::string(50, '.')));
+  PlanOptions options = unguided("RRTConnect");
+  options.range = 1e-3;
+  options.time_limit = 0.1;
+  const PlanResult result = Planner(nullptr, options).plan({map, {1, 1}, {49, 39}});
+  EXPECT_EQ(result.status, PlanStatus::time_limit);
+  EXPECT_LT(result.timings.plan, 2000.0);
+  options.range = 1e-17;
+  EXPECT_THROW(Planner(nullptr, options).plan({map, {1, 1}, {49, 39}}), RequestError);
+}
+
+TEST(Planner, APredictorThatReturnsAnotherSizeIsRefused) {
+  class Wrong final : public RegionPredictor {
+   public:
+    Prediction predict(const OccupancyMap&, const Eigen::Vector2d&, const Eigen::Vector2d&) const override {
+      const OccupancyMap other = test::map_from_rows({"..", ".."});
+      return {PromisingRegion(other, std::vector<float>(4, 0.0F), {0, 0}, {1, 1}), {}};
+    }
+  };
+  const OccupancyMap map = test::map_from_rows(std::vector<std::string>(40, std::string(50, '.')));
+  PlanOptions options = unguided();
+  options.strategy = Strategy::region;
+  EXPECT_THROW(Planner(std::make_shared<Wrong>(), options).plan({map, {1, 1}, {49, 39}}), RequestError);
 }
 
 TEST(Planner, AnotherThreadCanCancel) {
@@ -235,11 +266,11 @@ TEST(Planner, AnotherThreadCanCancel) {
   PlanOptions options = unguided();
   options.stop = Stop::limit;
   options.time_limit = 60.0;
-  CancelToken cancel = options.cancel;
+  PlanRequest request{map, {1, 1}, {59, 59}};
   const Planner planner(nullptr, options);
-  auto future = std::async(std::launch::async, [&] { return planner.plan({map, {1, 1}, {59, 59}}); });
+  auto future = std::async(std::launch::async, [&] { return planner.plan(request); });
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  cancel.cancel();
+  request.cancel.cancel();
   EXPECT_EQ(future.wait_for(std::chrono::seconds(5)), std::future_status::ready);
   EXPECT_TRUE(future.get().solved());  // it had found a path before it was asked to stop shortening it
 }
@@ -290,6 +321,11 @@ TEST(Planner, OptionsAndRequestsAreChecked) {
   refused([](PlanOptions& o) { o.cost_factor = 0.9; });
   refused([](PlanOptions& o) { o.goal_tolerance = -0.1; });
   refused([](PlanOptions& o) { o.planner = "A star"; });
+  refused([](PlanOptions& o) { o.goal_bias = 0.0; });
+  refused([](PlanOptions& o) {
+    o.planner = "RRTConnect";
+    o.stop = Stop::limit;
+  });
   refused([](PlanOptions& o) { o.strategy = Strategy::region; });  // and no predictor
   const OccupancyMap map = test::map_from_rows({".."});
   EXPECT_THROW(Planner(nullptr, unguided()).plan({map, {std::nan(""), 0.5}, {1.5, 0.5}}), RequestError);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "lrrt/error.hpp"
 #include "lrrt/region/picture.hpp"
@@ -69,6 +70,14 @@ TEST(PromisingRegion, BridgesJoinStartAndGoalThroughTheFewestPixels) {
     bridged += static_cast<int>(possible && !broken.connected());
   }
   EXPECT_GT(bridged, 20);
+}
+
+TEST(PromisingRegion, ABridgeNeedsItsOwnMap) {
+  const OccupancyMap map = test::map_from_rows({"..."});
+  const PromisingRegion region(map, {1, 0, 1}, {0, 0}, {2, 0});
+  EXPECT_THROW(region.bridged(test::map_from_rows({"...", "..."}), {0, 0}, {2, 0}), RequestError);
+  EXPECT_THROW(region.bridged(map, {0, 0}, {2, 0}, -1), RequestError);
+  EXPECT_TRUE(region.bridged(map, {0, 0}, {2, 0}, std::numeric_limits<int>::max()).connected());
 }
 
 TEST(PromisingRegion, ABridgeTakesTheShortestGap) {

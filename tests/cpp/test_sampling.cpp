@@ -99,7 +99,7 @@ struct Guided {
     si->setStateValidityChecker(std::make_shared<MapValidityChecker>(si, collision, projection));
     si->setMotionValidator(std::make_shared<MapMotionValidator>(si, collision, projection));
     source = std::make_shared<GuidedSource>(
-        collision->map(),
+        collision,
         MixedSampler(std::make_unique<RegionStrategy>(left_third(collision->map())), UniformStrategy(30, 30), alpha, 5),
         projection);
     use_guided_sampler(*si, source);

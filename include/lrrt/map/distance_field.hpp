@@ -8,8 +8,7 @@
 namespace lrrt {
 
 /// Exact Euclidean distance, in pixels, from the centre of every pixel to the centre of the nearest pixel that is not
-/// free. Everything outside the map counts as not free. Computed in linear time (Felzenszwalb and Huttenlocher 2012, as
-/// implemented by OpenCV's precise distance transform).
+/// free. Everything outside the map counts as not free. Computed in linear time (Meijster, Roerdink, Hesselink 2000).
 class DistanceField {
  public:
   explicit DistanceField(const OccupancyMap& map);

@@ -10,6 +10,6 @@ namespace lrrt {
 /// less than a pixel's diagonal, since it asks the worst point of each pixel.
 /// @param radius map units, zero or more; 0 returns the map unchanged.
 /// @throws RequestError when the radius is negative or not finite.
-OccupancyMap inflated(const OccupancyMap& map, double radius);
+OccupancyMap inflated(OccupancyMap map, double radius);
 
 }  // namespace lrrt

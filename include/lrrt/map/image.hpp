@@ -29,9 +29,6 @@ struct Image {
 /// OpenCV.
 using ImageDecoder = std::function<Image(const std::filesystem::path&)>;
 
-/// Largest number of pixels that a reader accepts, 16384 × 16384. A damaged header is refused before memory is taken.
-inline constexpr std::int64_t max_map_pixels = std::int64_t{1} << 28;
-
 /// Checks a size that a file states.
 /// @param source name of the file for the error text.
 /// @throws MapError for a side below 1 or for more than max_map_pixels pixels.

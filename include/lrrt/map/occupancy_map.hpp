@@ -35,6 +35,9 @@ struct Bounds {
   Eigen::Vector2d high = Eigen::Vector2d::Zero();
 };
 
+/// Most pixels that a map may have: 16384 × 16384.
+inline constexpr std::int64_t max_map_pixels = std::int64_t{1} << 28;
+
 /// A trinary occupancy grid and the frame it lives in.
 ///
 /// Two frames exist. *Pixel coordinates* are continuous, x right and y down; pixel (c, r) covers [c, c+1) × [r, r+1).
@@ -44,13 +47,15 @@ class OccupancyMap {
  public:
   /// A plain picture: map units are pixels.
   /// @param cells row-major, row 0 at the top, width × height values.
-  /// @throws MapError when a side is not positive or the number of cells does not fit.
+  /// @throws MapError when a side is not positive, the number of cells does not fit, or there are more than
+  /// max_map_pixels.
   OccupancyMap(int width, int height, std::vector<Cell> cells);
 
   /// A metric map in the convention of ROS map_server.
-  /// @param resolution metres per pixel, positive and finite.
+  /// @param resolution metres per pixel, from 1e-6 to 1e6.
   /// @param origin pose of the lower-left corner of the lower-left pixel.
-  /// @throws MapError as above, and for a resolution or origin that is not finite or not positive.
+  /// @throws MapError as above, and for a resolution out of range or an origin that is not finite or farther than 1e9
+  /// metres.
   OccupancyMap(int width, int height, std::vector<Cell> cells, double resolution, Pose2 origin);
 
   int width() const { return width_; }
@@ -72,6 +77,9 @@ class OccupancyMap {
   Cell at(Pixel p) const { return cells_[index(p)]; }
   /// True when the pixel lies on the map and is free (unknown is not free; see resolved()).
   bool is_free(Pixel p) const { return contains(p) && at(p) == Cell::free; }
+
+  /// Row-major, 1 where a pixel is free, else 0.
+  std::vector<std::uint8_t> free_mask() const;
 
   /// Pixel that holds a point in pixel coordinates; far-away points saturate and are never on the map.
   static Pixel pixel_of(const Eigen::Vector2d& point);

@@ -6,8 +6,8 @@
 
 #include <memory>
 
-#include "lrrt/map/occupancy_map.hpp"
 #include "lrrt/ompl/map_projection.hpp"
+#include "lrrt/ompl/map_validity.hpp"
 #include "lrrt/sampling/strategy.hpp"
 
 namespace lrrt {
@@ -16,15 +16,16 @@ namespace lrrt {
 /// several samplers of the same planner, so that its counts cover them all. Not for concurrent use.
 class GuidedSource {
  public:
-  GuidedSource(OccupancyMap frame, MixedSampler sampler, std::shared_ptr<const MapProjection> projection)
-      : frame_(std::move(frame)), sampler_(std::move(sampler)), projection_(std::move(projection)) {}
+  GuidedSource(std::shared_ptr<const CollisionMap> map, MixedSampler sampler,
+               std::shared_ptr<const MapProjection> projection)
+      : map_(std::move(map)), sampler_(std::move(sampler)), projection_(std::move(projection)) {}
 
   /// Moves a state to the next point; its coordinates outside the map's plane stay as they are.
-  void place(ompl::base::State* state) { projection_->write(frame_.to_world(sampler_.draw()), state); }
+  void place(ompl::base::State* state) { projection_->write(map_->map().to_world(sampler_.draw()), state); }
   DrawCounts counts() const { return sampler_.counts(); }
 
  private:
-  OccupancyMap frame_;
+  std::shared_ptr<const CollisionMap> map_;
   MixedSampler sampler_;
   std::shared_ptr<const MapProjection> projection_;
 };
@@ -56,7 +57,9 @@ class GuidedStateSampler final : public ompl::base::StateSampler {
   ompl::base::StateSamplerPtr uniform_;
 };
 
-/// Makes every planner of a space information draw from the source: sets both allocators.
+/// Sets both sampler allocators of a space information. It guides planners that call StateSampler::sampleUniform (RRT,
+/// RRT*, RRT-Connect, …) or ValidStateSampler::sample (PRM, …); not the informed ones (Informed RRT*, BIT*, …), which
+/// ask the objective for their sampler, nor those that only sample near a state (EST, KPIECE).
 void use_guided_sampler(ompl::base::SpaceInformation& si, const std::shared_ptr<GuidedSource>& source);
 
 }  // namespace lrrt

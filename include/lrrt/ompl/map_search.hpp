@@ -9,6 +9,7 @@
 #include "lrrt/ompl/guided_sampler.hpp"
 #include "lrrt/ompl/map_validity.hpp"
 #include "lrrt/ompl/planners.hpp"
+#include "lrrt/ompl/search_limits.hpp"
 #include "lrrt/plan.hpp"
 
 namespace lrrt {
@@ -18,10 +19,10 @@ class MapSearch {
  public:
   /// @param start,goal map units, both free.
   MapSearch(std::shared_ptr<const CollisionMap> map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
-            MixedSampler sampler, const PlanOptions& options);
+            MixedSampler sampler, const PlanOptions& options, CancelToken cancel);
 
-  /// Runs until a path is good enough or a limit is reached; fills status, path, cost, counters and history of the
-  /// result.
+  /// Call once. Runs until a path is good enough or a limit is reached; fills status, path, cost, counters and history
+  /// of the result.
   void run(PlanResult& result);
 
  private:
@@ -36,11 +37,11 @@ class MapSearch {
   Eigen::Vector2d goal_;
   PlanOptions options_;
   std::shared_ptr<PlaneProjection> projection_;
+  std::shared_ptr<SearchLimits> limits_;
   ompl::base::SpaceInformationPtr si_;
   ompl::base::ProblemDefinitionPtr problem_;
   std::shared_ptr<GuidedSource> source_;
   MapPlanner planner_;
-  std::size_t iterations_ = 0;
 };
 
 /// A range that suits a map: twice the mean clearance of its free pixels, so that motions fit its passages, and no less

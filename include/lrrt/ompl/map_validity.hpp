@@ -11,6 +11,7 @@
 #include "lrrt/map/occupancy_map.hpp"
 #include "lrrt/map/segment_walk.hpp"
 #include "lrrt/ompl/map_projection.hpp"
+#include "lrrt/ompl/search_limits.hpp"
 
 namespace lrrt {
 
@@ -54,8 +55,9 @@ class MapValidityChecker final : public ompl::base::StateValidityChecker {
 /// skips thin walls.
 class MapMotionValidator final : public ompl::base::MotionValidator {
  public:
+  /// @param limits when given, no motion is free any more once they say that the search must end.
   MapMotionValidator(const ompl::base::SpaceInformationPtr& si, std::shared_ptr<const CollisionMap> map,
-                     std::shared_ptr<const MapProjection> projection);
+                     std::shared_ptr<const MapProjection> projection, std::shared_ptr<SearchLimits> limits = nullptr);
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to) const override;
   /// Also finds the last free state, by bisection.
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to,
@@ -64,6 +66,7 @@ class MapMotionValidator final : public ompl::base::MotionValidator {
  private:
   std::shared_ptr<const CollisionMap> map_;
   std::shared_ptr<const MapProjection> projection_;
+  std::shared_ptr<SearchLimits> limits_;
 };
 
 }  // namespace lrrt

@@ -23,20 +23,27 @@ struct InputSpec {
 /// The part of the map that matters is enlarged by a whole factor where it is smaller than the input, scaled down where
 /// it is larger, and centred.
 struct InputFit {
+  int map_width = 0;   ///< of the map that was encoded, pixels
+  int map_height = 0;  ///< of the map that was encoded, pixels
   int size = 0;        ///< side of the input, pixels
   PixelBox crop{};     ///< the part of the map that is shown, map pixels
   double scale = 1.0;  ///< input pixels per map pixel
   PixelBox placed{};   ///< where that part lies in the input, input pixels
 
+  /// Input pixels per map column; differs from `scale` where scaling down had to round the shorter side.
+  double scale_x() const { return static_cast<double>(placed.width) / crop.width; }
+  /// Input pixels per map row.
+  double scale_y() const { return static_cast<double>(placed.height) / crop.height; }
+
   /// Nearest resampling of a map-sized array onto the input.
   /// @param values row-major, map.width × map.height. @param fill value outside the map's part.
-  /// @return size × size values.
-  std::vector<std::uint8_t> to_input(const std::vector<std::uint8_t>& values, int map_width, std::uint8_t fill) const;
+  /// @return size × size values. @throws RequestError when the number of values is not the map's.
+  std::vector<std::uint8_t> to_input(const std::vector<std::uint8_t>& values, std::uint8_t fill) const;
 
   /// Brings a plane of the network's output back to map pixels: averaged where the map was enlarged, interpolated where
   /// it was scaled down, 0 outside the part that was shown.
   /// @param plane size × size values. @return map_width × map_height values.
-  std::vector<float> to_map(const float* plane, int map_width, int map_height) const;
+  std::vector<float> to_map(const float* plane) const;
 };
 
 /// Turns a map, a start and a goal into the picture that the network sees. Training and inference share this one

@@ -43,6 +43,7 @@ std::filesystem::path default_model_path();
 class OnnxPredictor final : public RegionPredictor {
  public:
   /// @throws ModelError when the runtime or the file cannot be loaded or the metadata do not fit.
+  /// @throws RequestError when the number of threads is out of range.
   explicit OnnxPredictor(const std::filesystem::path& model = default_model_path(), OnnxOptions options = {});
   ~OnnxPredictor() override;
   OnnxPredictor(OnnxPredictor&&) noexcept;

@@ -35,6 +35,7 @@ class PromisingRegion {
   /// pixels, and that way is widened within free space. Predicted regions do break, and a broken one guides into a dead
   /// end.
   /// @param halo half the width of a bridge, pixels. @return the region itself when it is connected or cannot be.
+  /// @throws RequestError when the map has another size or the halo is negative.
   PromisingRegion bridged(const OccupancyMap& map, Pixel start, Pixel goal, int halo = 3) const;
 
  private:

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "lrrt/plan.hpp"
+#include "lrrt/stopwatch.hpp"
+
+namespace lrrt {
+
+/// Decides when a search has to end, and remembers why. Belongs to one search.
+class SearchLimits {
+ public:
+  SearchLimits(double seconds, std::size_t iterations, CancelToken cancel)
+      : limit_ms_(seconds * 1e3), iteration_limit_(iterations), cancel_(std::move(cancel)) {}
+
+  /// Starts the clock.
+  void restart() { watch_ = Stopwatch(); }
+
+  /// Asked by OMPL's planners once an iteration. @return true when the search must end; otherwise counts the iteration.
+  bool next_iteration() {
+    if (iterations_ >= iteration_limit_ || interrupted()) return true;
+    ++iterations_;
+    return false;
+  }
+
+  /// Asked at every motion: one iteration of RRT-Connect may hold any number of them. Looks at the clock now and then.
+  /// @return true when time is over or the caller gave up.
+  bool interrupted_at_motion() {
+    constexpr std::uint32_t motions_between_looks = 64;
+    if (!interrupted_ && ++motions_ % motions_between_looks == 0) interrupted();
+    return interrupted_;
+  }
+
+  std::size_t iterations() const { return iterations_; }
+  double elapsed_ms() const { return watch_.total_ms(); }
+
+  /// Why a search without a solution ended.
+  PlanStatus reason() const {
+    if (cancel_.cancelled()) return PlanStatus::cancelled;
+    return interrupted_ ? PlanStatus::time_limit : PlanStatus::iteration_limit;
+  }
+
+ private:
+  bool interrupted() {
+    interrupted_ = interrupted_ || cancel_.cancelled() || watch_.total_ms() >= limit_ms_;
+    return interrupted_;
+  }
+
+  Stopwatch watch_;
+  double limit_ms_;
+  std::size_t iteration_limit_;
+  CancelToken cancel_;
+  std::size_t iterations_ = 0;
+  std::uint32_t motions_ = 0;
+  bool interrupted_ = false;
+};
+
+}  // namespace lrrt
