@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Maps that several tests share."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import lrrt
+
+
+@pytest.fixture
+def hall() -> lrrt.OccupancyMap:
+    """40×60 free pixels, a wall with a door, an unknown corner, a closed room."""
+    cells = np.zeros((40, 60), dtype=np.uint8)
+    cells[:30, 30] = 1
+    cells[:4, :4] = 2
+    cells[10:20, 45:55] = 1
+    cells[12:18, 47:53] = 0
+    return lrrt.OccupancyMap.from_array(cells)
+
+
+@pytest.fixture(scope="session")
+def predictor() -> lrrt.OnnxPredictor:
+    return lrrt.default_predictor()

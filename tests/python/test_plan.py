@@ -1,0 +1,204 @@
+# SPDX-License-Identifier: BSD-3-Clause
+from __future__ import annotations
+
+import math
+import os
+import signal
+import threading
+import time
+
+import numpy as np
+import oracle
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+import lrrt
+
+OPEN = lrrt.OccupancyMap.from_array(np.zeros((60, 60), bool))
+
+
+def random_map(rng: np.random.Generator, side: int) -> np.ndarray:
+    """(H, W) bool, True = occupied: boxes on a free ground."""
+    height, width = rng.integers(8, side, 2)
+    occupied = np.zeros((height, width), bool)
+    for _ in range(rng.integers(0, 14)):
+        r, c = rng.integers(height), rng.integers(width)
+        occupied[r : r + rng.integers(1, height // 2), c : c + rng.integers(1, width // 2)] = True
+    occupied[0, 0] = False
+    return occupied
+
+
+def random_point(rng: np.random.Generator, free: np.ndarray) -> tuple[float, float]:
+    row, column = rng.choice(np.argwhere(free))
+    return column + rng.random(), row + rng.random()
+
+
+def check(result: lrrt.PlanResult, m: lrrt.OccupancyMap, free: np.ndarray, start, goal) -> None:
+    """What must hold of any result."""
+    if result.status == "not_connected":
+        a, b = (np.floor(m.to_pixel(p)).astype(int) for p in (start, goal))
+        assert not oracle.reachable(free, tuple(a))[b[1], b[0]]
+    if not result.solved:
+        assert result.path.shape == (0, 2) and math.isinf(result.cost)
+        return
+    assert result.path.dtype == np.float64 and result.path.shape[1] == 2
+    np.testing.assert_allclose(result.path[[0, -1]], (start, goal), atol=1e-9)
+    assert oracle.first_collision(free, np.array([m.to_pixel(p) for p in result.path])) is None
+    assert result.cost == pytest.approx(oracle.length(result.path), abs=1e-9)
+    costs = result.cost_history[:, 2]
+    assert (np.diff(costs) < 0).all() and costs[-1] == pytest.approx(result.cost, abs=1e-6)
+
+
+@settings(deadline=None, max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.integers(0, 2**32), st.sampled_from(lrrt.planner_names()), st.booleans())
+def test_results_are_honest(predictor, seed, planner, guided):
+    rng = np.random.default_rng(seed)
+    free = ~random_map(rng, 60)
+    metric = {"resolution": 0.05, "origin": (-3.0, 4.0, float(rng.uniform(-3, 3)))} if rng.random() < 0.5 else {}
+    m = lrrt.OccupancyMap.from_array(~free, **metric)
+    start, goal = (m.to_world(random_point(rng, free)) for _ in range(2))
+    result = lrrt.plan(
+        m, start, goal, planner=planner, strategy="region" if guided else "uniform", predictor=predictor, seed=seed + 1
+    )
+    assert result.status in ("solved", "not_connected")
+    check(result, m, free, start, goal)
+
+
+def test_the_contract_of_the_readme(hall, predictor):
+    result = lrrt.plan(
+        hall,
+        (10.5, 35.5),
+        (55.5, 5.5),
+        planner="RRTstar",
+        strategy="region",
+        alpha=0.8,
+        predictor=predictor,
+        stop="first",
+        time_limit=5.0,
+        range=6.0,
+        seed=1,
+    )
+    assert result.status == "solved" and result.solved
+    assert result.iterations > 0 and result.nodes > 0
+    assert set(result.timings) == {"prepare", "encode", "infer", "region", "plan", "total"}
+    stages = sum(v for k, v in result.timings.items() if k != "total")
+    assert stages <= result.timings["total"] + 1e-6
+    assert result.draws["guided"] > 0
+    assert result.region is result.region or result.region.connected
+    assert result.tree.shape == (0, 4)
+    check(result, hall, hall.cells == 0, (10.5, 35.5), (55.5, 5.5))
+
+
+def test_the_same_seed_gives_the_same_result(hall, predictor):
+    options = {"predictor": predictor, "stop": "limit", "iteration_limit": 800, "time_limit": 60.0, "keep_tree": True}
+    first, second = (lrrt.plan(hall, (10.5, 35.5), (55.5, 5.5), seed=7, **options) for _ in range(2))
+    np.testing.assert_array_equal(first.path, second.path)
+    np.testing.assert_array_equal(first.tree, second.tree)
+    assert first.iterations == second.iterations == 800
+    other = lrrt.plan(hall, (10.5, 35.5), (55.5, 5.5), seed=8, **options)
+    assert not np.array_equal(first.tree, other.tree)
+
+
+@pytest.mark.parametrize(
+    ("start", "goal", "status"),
+    [
+        ((-1, 5), (55, 5), "start_outside"),
+        ((10, 35), (60, 5), "goal_outside"),
+        ((30.5, 5), (55, 5), "start_occupied"),
+        ((10, 35), (2, 2), "goal_occupied"),
+        ((10, 35), (50, 15), "not_connected"),
+    ],
+)
+def test_hopeless_queries_have_their_own_status(hall, start, goal, status):
+    result = lrrt.plan(hall, start, goal)
+    assert result.status == status and not result.solved and result.iterations == 0
+    assert result.timings["infer"] == 0
+
+
+def test_unknown_is_what_the_caller_says(hall):
+    assert lrrt.plan(hall, (10, 35), (2, 2), unknown="free").solved
+
+
+def test_a_robot_needs_room(hall):
+    free = lrrt.plan(hall, (10.5, 35.5), (55.5, 35.5), radius=4.0, strategy="uniform")
+    assert free.solved and free.path[:, 1].max() <= 36.0
+    assert lrrt.plan(hall, (10.5, 35.5), (55.5, 35.5), radius=5.5, strategy="uniform").status != "solved"
+
+
+@pytest.mark.parametrize(
+    ("options", "word"),
+    [
+        ({"alpha": 1.5}, "alpha"),
+        ({"alpha": math.nan}, "alpha"),
+        ({"planner": "A*"}, "RRTstar"),
+        ({"strategy": "frontal"}, "uniform"),
+        ({"stop": "soon"}, "first"),
+        ({"range": -1.0}, "range"),
+        ({"range": 1e-9}, "range"),
+        ({"time_limit": 0.0}, "time_limit"),
+        ({"radius": -1.0}, "radius"),
+        ({"unknown": "maybe"}, "occupied"),
+        ({"goal_bias": 0.0}, "goal_tolerance"),
+        ({"planner": "RRT", "stop": "limit"}, "RRTstar"),
+    ],
+)
+def test_options_out_of_range_are_refused(options, word):
+    with pytest.raises(lrrt.RequestError, match=word):
+        lrrt.plan(OPEN, (1, 1), (50, 50), **options)
+
+
+@pytest.mark.parametrize("point", [(math.nan, 1), (1, math.inf)])
+def test_points_that_are_no_numbers_are_refused(point):
+    with pytest.raises(lrrt.RequestError, match="start"):
+        lrrt.plan(OPEN, point, (50, 50))
+
+
+def test_limits_end_a_search():
+    assert lrrt.plan(OPEN, (1, 1), (50, 50), strategy="uniform", stop="limit", iteration_limit=50).iterations == 50
+    began = time.perf_counter()
+    lrrt.plan(OPEN, (1, 1), (50, 50), strategy="uniform", stop="limit", time_limit=0.2)
+    assert 0.2 <= time.perf_counter() - began < 2.0
+
+
+def test_the_gil_is_free_while_planning():
+    counted = 0
+    done = threading.Event()
+
+    def count() -> None:
+        nonlocal counted
+        while not done.is_set():
+            counted += 1
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    lrrt.plan(OPEN, (1, 1), (50, 50), strategy="uniform", stop="limit", time_limit=0.5)
+    done.set()
+    thread.join()
+    assert counted > 20
+
+
+def test_another_thread_can_cancel():
+    token = lrrt.CancelToken()
+    threading.Timer(0.2, token.cancel).start()
+    began = time.perf_counter()
+    lrrt.plan(OPEN, (1, 1), (50, 50), strategy="uniform", stop="limit", time_limit=60.0, cancel=token)
+    assert token.cancelled and time.perf_counter() - began < 5.0
+
+
+def test_ctrl_c_ends_a_search():
+    threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    began = time.perf_counter()
+    with pytest.raises(KeyboardInterrupt):
+        lrrt.plan(OPEN, (1, 1), (50, 50), strategy="uniform", stop="limit", time_limit=60.0)
+    assert time.perf_counter() - began < 5.0
+    assert lrrt.plan(OPEN, (1, 1), (50, 50), strategy="uniform").solved
+
+
+def test_more_time_shortens_the_path():
+    first = lrrt.plan(OPEN, (1, 1), (50, 50), strategy="uniform")
+    longer = lrrt.plan(OPEN, (1, 1), (50, 50), strategy="uniform", stop="limit", iteration_limit=4000)
+    assert math.hypot(49, 49) <= longer.cost < first.cost
+    near = lrrt.plan(OPEN, (1, 1), (50, 50), strategy="uniform", stop="factor", cost_factor=1.1)
+    assert near.cost <= 1.1 * math.hypot(49, 49) + 1e-6
