@@ -61,6 +61,7 @@ PromisingRegion PromisingRegion::bridged(const OccupancyMap& map, Pixel start, P
   PromisingRegion result = *this;
   for (const Pixel p : way) {
     if (mask_[map.index(p)] != 0) continue;
+    result.bridge_.push_back(p);
     for (int r = std::max(0, p.r - halo); r <= std::min(height_ - 1, p.r + halo); ++r) {
       for (int c = std::max(0, p.c - halo); c <= std::min(width_ - 1, p.c + halo); ++c) {
         std::uint8_t& pixel = result.mask_[map.index({c, r})];

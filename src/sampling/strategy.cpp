@@ -13,7 +13,7 @@ Eigen::Vector2d UniformStrategy::draw(Random& random) const {
   return {x, random.uniform(0.0, height_)};
 }
 
-RegionStrategy::RegionStrategy(const PromisingRegion& region) {
+RegionStrategy::RegionStrategy(const PromisingRegion& region) : bridge_(region.bridge()) {
   if (region.area() == 0) {
     throw RequestError(
         "the promising region is empty: there is nothing to draw from; use the uniform strategy instead");
@@ -29,7 +29,9 @@ RegionStrategy::RegionStrategy(const PromisingRegion& region) {
 }
 
 Eigen::Vector2d RegionStrategy::draw(Random& random) const {
-  const Pixel pixel = pixels_[random.index(pixels_.size())];
+  const bool from_bridge = !bridge_.empty() && random.uniform() < 0.5;
+  const std::vector<Pixel>& pixels = from_bridge ? bridge_ : pixels_;
+  const Pixel pixel = pixels[random.index(pixels.size())];
   const double x = pixel.c + random.uniform();
   return {x, pixel.r + random.uniform()};
 }

@@ -4,6 +4,7 @@
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "lrrt/error.hpp"
@@ -49,6 +50,27 @@ TEST(Sampling, RegionDrawsAreUniformOverThePixelsOfTheMask) {
       expect_share(hits[static_cast<std::size_t>(i)], draws, 1.0 / 6.0);
   }
   EXPECT_NEAR(offset / draws, 0.5, 0.01);  // jitter covers the pixel
+}
+
+TEST(Sampling, HalfOfTheDrawsComeFromTheMiddleOfABridge) {
+  const OccupancyMap map = test::map_from_rows(std::vector<std::string>(20, std::string(40, '.')));
+  std::vector<float> probability(map.size(), 1.0F);
+  for (int r = 0; r < 20; ++r) {
+    for (int c = 15; c < 25; ++c) probability[map.index({c, r})] = 0.0F;
+  }
+  const PromisingRegion region =
+      PromisingRegion(map, probability, {0, 10}, {39, 10}).bridged(map, {0, 10}, {39, 10}, 2);
+  ASSERT_EQ(region.bridge().size(), 10U);
+  const RegionStrategy strategy(region);
+  Random random(2);
+  constexpr std::size_t draws = 50000;
+  std::size_t hits = 0;
+  for (std::size_t i = 0; i < draws; ++i) {
+    const Pixel pixel = OccupancyMap::pixel_of(strategy.draw(random));
+    hits += static_cast<std::size_t>(std::find(region.bridge().begin(), region.bridge().end(), pixel) !=
+                                     region.bridge().end());
+  }
+  expect_share(hits, draws, 0.5 + 0.5 * 10.0 / static_cast<double>(region.area()));
 }
 
 TEST(Sampling, AlphaIsTheGuidedShare) {

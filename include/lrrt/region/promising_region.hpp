@@ -30,6 +30,8 @@ class PromisingRegion {
   bool connected() const { return connected_; }
   /// Number of pixels that bridged() added to the mask; 0 for a region as it was predicted.
   std::size_t bridge_area() const { return bridge_area_; }
+  /// The middle lines of the bridges: the pixels of the way from start to goal that the prediction lacked.
+  const std::vector<Pixel>& bridge() const { return bridge_; }
 
   /// The region with its gaps closed: start and goal are joined along the way that leaves the mask for the fewest
   /// pixels, and that way is widened within free space. Predicted regions do break, and a broken one guides into a dead
@@ -46,6 +48,7 @@ class PromisingRegion {
   std::size_t area_;
   bool connected_;
   std::size_t bridge_area_ = 0;
+  std::vector<Pixel> bridge_;
 };
 
 }  // namespace lrrt

@@ -30,7 +30,10 @@ class UniformStrategy final : public SamplingStrategy {
 };
 
 /// Every point of the promising region with the same density (the paper's sampler): a random pixel of the mask, and a
-/// random point inside it, since pixel centres would repeat and coincide with nodes of the tree.
+/// random /// point inside it, since pixel centres would repeat and coincide with nodes of the tree.
+///
+/// Where the region had to be bridged, half of the points come from the middle lines of the bridges instead: they are
+/// the only known way, often a passage of a few pixels that draws over the whole region would hardly ever hit.
 class RegionStrategy final : public SamplingStrategy {
  public:
   /// @throws RequestError when the region holds no pixel: check PromisingRegion::area first.
@@ -39,6 +42,7 @@ class RegionStrategy final : public SamplingStrategy {
 
  private:
   std::vector<Pixel> pixels_;
+  std::vector<Pixel> bridge_;
 };
 
 /// How many points were drawn from where.
