@@ -60,6 +60,11 @@ evaluate: setup-training ## Measure a model on the test mazes: MODEL=models/defa
 lint: install-python ## Check formatting, style and types
 	@scripts/lint.sh check
 
+.PHONY: tidy
+tidy: build ## Run clang-tidy on the library (minutes)
+	@scripts/setup_apt.sh clang-tidy
+	@scripts/lint.sh tidy $(PRESET)
+
 .PHONY: format
 format: setup ## Format C++ and Python sources in place
 	@scripts/lint.sh fix

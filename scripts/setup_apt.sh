@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs the apt packages of scripts/apt-packages.txt that are missing, and Python's where python3 cannot do the job.
+# setup_apt.sh [PACKAGE...]: installs what is missing of scripts/apt-packages.txt and of the packages named, and Python
+# where python3 cannot do the job.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 . "$(dirname "$0")/common.sh"
 
 mapfile -t packages <"$root/scripts/apt-packages.txt"
+packages+=("$@")
 find_python >/dev/null || packages+=(python3 python3-dev python3-venv)
 
 if ! command -v apt-get >/dev/null; then
