@@ -3,8 +3,9 @@
 
     .venv/bin/python bench/compare_mazes.py --level 35 --mazes 50
 
-The mazes are perfect ones of the training package's test split, drawn on 256×256 pixels; start and goal are the two ends of the
-longest path. Both planners stop at their first path. The time of L-RRT* counts the prediction.
+The mazes are perfect ones of the training package's test split, drawn on 256×256 pixels;
+start and goal are the two ends of the longest path. Both planners stop at their first path.
+The time of L-RRT* counts the prediction.
 """
 
 from __future__ import annotations
@@ -67,7 +68,9 @@ def problem(level: int, index: int) -> tuple[lrrt.OccupancyMap, tuple[float, flo
     side = PICTURE_SIDE // level
     picture = np.ones((PICTURE_SIDE, PICTURE_SIDE), dtype=bool)
     margin = (PICTURE_SIDE - level * side) // 2
-    picture[margin : margin + level * side, margin : margin + level * side] = np.kron(blocks, np.ones((side, side), bool))
+    picture[margin : margin + level * side, margin : margin + level * side] = np.kron(
+        blocks, np.ones((side, side), bool)
+    )
     start = farthest(blocks, (1, 1))  # in a tree the farthest block from anywhere is an end of the longest path
     goal = farthest(blocks, start)
     to_pixels = [(margin + (c + 0.5) * side, margin + (r + 0.5) * side) for r, c in (start, goal)]
@@ -91,7 +94,16 @@ def run(name: str, maze: int, level: int, predictor: lrrt.OnnxPredictor, args: a
         time_limit=args.time_limit,
         seed=maze + 1,
     )
-    return Run(name, maze, maze + 1, result.solved, result.iterations, result.nodes, result.timings["total"], float(result.cost))
+    return Run(
+        name,
+        maze,
+        maze + 1,
+        result.solved,
+        result.iterations,
+        result.nodes,
+        result.timings["total"],
+        float(result.cost),
+    )
 
 
 def table(runs: list[Run], title: str) -> Table:
@@ -113,7 +125,9 @@ def table(runs: list[Run], title: str) -> Table:
         result.add_row(name, f"{sum(r.solved for r in rows)}/{len(rows)}", *cells)
     plain, guided = by_name.values()
     pairs = [(a, b) for a, b in zip(plain, guided) if a.solved and b.solved]
-    ratios = [f"{statistics.median(getattr(a, f) / getattr(b, f) for a, b in pairs):.2f}×" for f in figures] if pairs else []
+    ratios = (
+        [f"{statistics.median(getattr(a, f) / getattr(b, f) for a, b in pairs):.2f}×" for f in figures] if pairs else []
+    )
     result.add_section()
     result.add_row("ratio by maze", str(len(pairs)), *(f"median {r}" for r in ratios))
     return result
@@ -139,10 +153,17 @@ def main() -> None:
         connected += predictor.predict(map_, start, goal).connected
         runs += [run(name, maze, args.level, predictor, args) for name in ("RRT*", guided)]
     console = Console(width=150)
-    console.print(table(runs, f"First path in {args.mazes} perfect mazes of {args.level}×{args.level} blocks, 256×256 pixels"))
-    console.print(f"Predicted region joins start and goal by itself in {connected} of {args.mazes} mazes; {os.cpu_count()} cores, {platform.machine()}")
+    console.print(
+        table(runs, f"First path in {args.mazes} perfect mazes of {args.level}×{args.level} blocks, 256×256 pixels")
+    )
+    console.print(f"The predicted region joins start and goal by itself in {connected} of {args.mazes} mazes.")
+    console.print(f"{os.cpu_count()} cores, {platform.machine()}")
     if args.json:
-        record = {"arguments": {k: str(v) for k, v in vars(args).items()}, "model": str(predictor.info.path), "time": time.time()}
+        record = {
+            "arguments": {k: str(v) for k, v in vars(args).items()},
+            "model": str(predictor.info.path),
+            "time": time.time(),
+        }
         temporary = args.json.with_suffix(".part")
         temporary.write_text(json.dumps({**record, "runs": [asdict(r) for r in runs]}, indent=1))
         temporary.replace(args.json)

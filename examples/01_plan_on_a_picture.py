@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plan on a picture: dark pixels are obstacles, coordinates are pixels (x right, y down).
 
-    python examples/01_plan_on_a_picture.py [output.png]
+python examples/01_plan_on_a_picture.py [output.png]
 """
 
 import sys

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Predict only: where would a path probably lie? For those who bring their own planner.
 
-    python examples/02_predict_only.py [output.png]
+python examples/02_predict_only.py [output.png]
 """
 
 import sys

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Your own map from an array, in metres, for a robot with a radius.
 
-    python examples/03_own_map_from_an_array.py [output.png]
+python examples/03_own_map_from_an_array.py [output.png]
 """
 
 import sys

@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NoReturn, Optional
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
 from rich.console import Console
@@ -31,16 +31,17 @@ app = typer.Typer(
     add_completion=False,
     rich_markup_mode="rich",
     help="Plans paths on maps, guided by a network that marks where a path probably lies.\n\n"
-    "Coordinates are in map units: pixels (x right, y down) for pictures and MovingAI maps, metres for ROS map_server maps.\n\n"
+    "Coordinates are in map units: pixels (x right, y down) for pictures and MovingAI maps, metres for ROS "
+    "map_server maps.\n\n"
     "Exit codes: 0 done, 2 bad input, 3 no path.",
 )
 
 MapPath = Annotated[Path, typer.Argument(metavar="MAP", help="Picture, map_server .yaml or MovingAI .map.")]
 Start = Annotated[tuple[float, float], typer.Option(metavar="X Y", help="Where the path begins.")]
 Goal = Annotated[tuple[float, float], typer.Option(metavar="X Y", help="Where it ends.")]
-Model = Annotated[Optional[Path], typer.Option(metavar="FILE", help="ONNX model; the one that ships by default.")]
-Pixels = Annotated[bool, typer.Option("--pixels", help="Start and goal are pixels (x right, y down), whatever the map.")]
-Picture = Annotated[Optional[Path], typer.Option(metavar="FILE", help="Draw the outcome into this picture.")]
+Model = Annotated[Path | None, typer.Option(metavar="FILE", help="ONNX model; the one that ships by default.")]
+Pixels = Annotated[bool, typer.Option("--pixels", help="Start and goal are pixels (x right, y down) on any map.")]
+Picture = Annotated[Path | None, typer.Option(metavar="FILE", help="Draw the outcome into this picture.")]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object instead of a table.")]
 
 
@@ -50,12 +51,16 @@ def plan_command(
     start: Start,
     goal: Goal,
     planner: Annotated[str, typer.Option(help=f"One of {', '.join(planner_names())}.")] = "RRTstar",
-    strategy: Annotated[str, typer.Option(help="Where guided samples come from: region, or uniform for no guidance.")] = "region",
+    strategy: Annotated[
+        str, typer.Option(help="Where guided samples come from: region, uniform (unguided).")
+    ] = "region",
     alpha: Annotated[float, typer.Option(help="Share of guided samples, 0 to 1.")] = 0.8,
     model: Model = None,
-    stop: Annotated[str, typer.Option(help="first path, factor (near the shortest), or limit (use all the time).")] = "first",
+    stop: Annotated[
+        str, typer.Option(help="first (path), factor (near the shortest), limit (use all the time).")
+    ] = "first",
     cost_factor: Annotated[float, typer.Option(help="For --stop factor: how near to the shortest grid path.")] = 1.05,
-    time_limit: Annotated[float, typer.Option(metavar="SECONDS", help="Longest search.")] = 5.0,
+    time_limit: Annotated[float, typer.Option(metavar="SECONDS", help="Longest search.")] = 60.0,
     reach: Annotated[float, typer.Option("--range", help="Longest extension of the tree; 0 chooses by the map.")] = 0.0,
     radius: Annotated[float, typer.Option(help="Radius of a disc-shaped robot, map units; 0 is a point.")] = 0.0,
     unknown: Annotated[str, typer.Option(help="What unknown pixels count as: occupied or free.")] = "occupied",
@@ -73,22 +78,23 @@ def plan_command(
     try:
         map_, ends = _read(map_path, start, goal, pixels)
         predictor = OnnxPredictor(model) if model is not None and strategy != "uniform" else None
-        result = plan(
-            map_,
-            *ends,
-            planner=planner,
-            strategy=strategy,
-            alpha=alpha,
-            predictor=predictor,
-            stop=stop,
-            cost_factor=cost_factor,
-            time_limit=time_limit,
-            range=reach,
-            radius=radius,
-            unknown=unknown,
-            seed=seed,
-            keep_tree=picture is not None,
-        )
+        with Console(stderr=True).status(f"planning, up to {time_limit:g} s (Ctrl-C ends it) …"):
+            result = plan(
+                map_,
+                *ends,
+                planner=planner,
+                strategy=strategy,
+                alpha=alpha,
+                predictor=predictor,
+                stop=stop,
+                cost_factor=cost_factor,
+                time_limit=time_limit,
+                range=reach,
+                radius=radius,
+                unknown=unknown,
+                seed=seed,
+                keep_tree=picture is not None,
+            )
         if picture is not None:
             _save(draw(map_, result=result, start=ends[0], goal=ends[1]), picture)
     except Error as error:
@@ -128,7 +134,10 @@ def predict_command(
         return
     table = _plain_table()
     table.add_row("connected", "yes" if region.connected else "no")
-    table.add_row("area", f"{region.area:,d} pixels, {100 * region.area / max(1, int((map_.cells == 0).sum())):.1f} % of the free ones")
+    table.add_row(
+        "area",
+        f"{region.area:,d} pixels, {100 * region.area / max(1, int((map_.cells == 0).sum())):.1f} % of the free ones",
+    )
     table.add_row("time", _times(timings))
     table.add_row("picture", str(picture))
     Console().print(table)
@@ -136,7 +145,9 @@ def predict_command(
 
 @app.command("info")
 def info_command(
-    model: Annotated[Optional[Path], typer.Argument(metavar="[MODEL]", help="ONNX model; the one that ships by default.")] = None,
+    model: Annotated[
+        Path | None, typer.Argument(metavar="[MODEL]", help="ONNX model; the one that ships by default.")
+    ] = None,
     as_json: Json = False,
 ) -> None:
     """Tell what a model says of itself."""
@@ -184,7 +195,9 @@ def result_fields(result: PlanResult) -> dict[str, Any]:
     }
 
 
-def _read(path: Path, start: tuple[float, float], goal: tuple[float, float], pixels: bool) -> tuple[OccupancyMap, list[Any]]:
+def _read(
+    path: Path, start: tuple[float, float], goal: tuple[float, float], pixels: bool
+) -> tuple[OccupancyMap, list[Any]]:
     map_ = read_map(path)
     return map_, [map_.to_world(point) if pixels else point for point in (start, goal)]
 
@@ -193,7 +206,9 @@ def _save(axes: Axes, picture: Path) -> None:
     try:
         axes.figure.savefig(picture)  # type: ignore[union-attr]
     except (OSError, ValueError) as error:
-        raise Error(f"{picture}: cannot be written ({error}); expected a .png, .pdf or .svg in a folder that exists") from error
+        raise Error(
+            f"{picture}: cannot be written ({error}); expected a .png, .pdf or .svg in a folder that exists"
+        ) from error
 
 
 def _fail(error: Exception) -> NoReturn:
@@ -228,7 +243,9 @@ def _result_table(map_: OccupancyMap, result: PlanResult) -> Table:
     table.add_row("nodes", f"{result.nodes:,d}")
     if result.region is not None:
         bridged = result.region.bridge_area
-        table.add_row("region", f"{result.region.area:,d} pixels" + (f", {bridged:,d} of them to close gaps" if bridged else ""))
+        table.add_row(
+            "region", f"{result.region.area:,d} pixels" + (f", {bridged:,d} of them to close gaps" if bridged else "")
+        )
     table.add_row("time", _times(result.timings))
     return table
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The main job on one page: ``python -m lrrt.demo`` plans in a hard maze with and without guidance and draws both trees."""
+"""The main job on one page: ``python -m lrrt.demo`` plans in a hard maze with and without guidance, and draws it."""
 
 from __future__ import annotations
 
@@ -89,10 +89,9 @@ def picture(
     for ax, contender in zip(axes[2:], contenders):
         r = contender.result
         draw(map_, result=r, start=start, goal=goal, ax=ax)
+        effort = f"{contender.name}: {r.iterations:,d} iterations, {r.nodes:,d} nodes"
         outcome = f"cost {r.cost:.0f} px" if r.solved else r.status
-        ax.set_title(
-            f"{contender.name}: {r.iterations:,d} iterations, {r.nodes:,d} nodes\n{contender.milliseconds:,.0f} ms, {outcome}"
-        )
+        ax.set_title(f"{effort}\n{contender.milliseconds:,.0f} ms, {outcome}")
     for ax in axes:
         ax.set_axis_off()
     temporary = path.with_name(f".{path.name}.part")

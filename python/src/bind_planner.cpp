@@ -40,10 +40,10 @@ UnknownIs unknown_from(const std::string& word) {
 
 PlanResult plan(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
                 const std::string& planner, const std::string& strategy, double alpha,
-                std::shared_ptr<RegionPredictor> predictor, const std::string& stop, double cost_factor,
-                double time_limit, std::optional<std::size_t> iteration_limit, double range, double goal_bias,
-                double goal_tolerance, double radius, const std::string& unknown, std::uint64_t seed, bool keep_tree,
-                const std::optional<CancelToken>& cancel) {
+                const std::optional<std::shared_ptr<RegionPredictor>>& predictor, const std::string& stop,
+                double cost_factor, double time_limit, std::optional<std::size_t> iteration_limit, double range,
+                double goal_bias, double goal_tolerance, double radius, const std::string& unknown, std::uint64_t seed,
+                bool keep_tree, const std::optional<CancelToken>& cancel) {
   PlanOptions options;
   options.planner = planner;
   options.strategy = strategy_from_string(strategy);
@@ -59,7 +59,7 @@ PlanResult plan(const OccupancyMap& map, const Eigen::Vector2d& start, const Eig
   options.keep_tree = keep_tree;
   PlanRequest request{map, start, goal, radius, unknown_from(unknown)};
   if (cancel) request.cancel = *cancel;
-  return plan_interruptibly(Planner(std::move(predictor), options), request);
+  return plan_interruptibly(Planner(predictor.value_or(nullptr), options), request);
 }
 
 py::array_t<double> points_array(const std::vector<Eigen::Vector2d>& points) {

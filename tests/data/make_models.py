@@ -22,7 +22,15 @@ METADATA = {
     "input_size": str(SIZE),
     "marker_side": "1",
     "classes": "free,obstacle,promising",
-    "colours": json.dumps({"start": [255, 0, 0], "goal": [0, 0, 255], "free": [255, 255, 255], "obstacle": [0, 0, 0], "promising": [0, 255, 0]}),
+    "colours": json.dumps(
+        {
+            "start": [255, 0, 0],
+            "goal": [0, 0, 255],
+            "free": [255, 255, 255],
+            "obstacle": [0, 0, 0],
+            "promising": [0, 255, 0],
+        }
+    ),
     "threshold": "0.5",
     "training_data": "none",
     "training_budget": "none",
@@ -30,7 +38,9 @@ METADATA = {
 }
 
 
-def model(classes: int = 3, element: int = TensorProto.UINT8, output: str = "probability", bias: float = 0.0) -> onnx.ModelProto:
+def model(
+    classes: int = 3, element: int = TensorProto.UINT8, output: str = "probability", bias: float = 0.0
+) -> onnx.ModelProto:
     """image / 255 → 1×1 convolution that copies the green plane into the last class."""
     weight = np.zeros((classes, 3, 1, 1), np.float32)
     weight[-1, 1] = 1.0

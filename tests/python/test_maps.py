@@ -56,7 +56,7 @@ def test_cells_are_a_read_only_view_that_keeps_the_map_alive():
     ],
 )
 def test_arrays_that_are_no_map_are_refused(bad):
-    with pytest.raises(lrrt.MapError, match="expected|needs"):
+    with pytest.raises(lrrt.MapError, match=r"expected|needs"):
         lrrt.OccupancyMap.from_array(bad)
 
 

@@ -25,7 +25,7 @@ def test_a_region_has_the_shape_of_the_map(hall, predictor):
     region = predictor.predict(hall, start=START, goal=GOAL)
     assert region.probability.shape == region.mask.shape == (40, 60)
     assert region.probability.dtype == np.float32 and region.mask.dtype == bool
-    assert 0 <= region.probability.min() and region.probability.max() <= 1
+    assert region.probability.min() >= 0 and region.probability.max() <= 1
     assert isinstance(region.connected, bool) and region.area == region.mask.sum()
     np.testing.assert_array_equal(region.mask, (hall.cells == 0) & (region.probability >= predictor.info.threshold))
 

@@ -6,10 +6,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-import lrrt
 import numpy as np
 import torch
 from torch.utils.data import Dataset, Sampler
+
+import lrrt
 
 from . import mazes
 from .metrics import GOAL, OBSTACLE, PROMISING, START

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 import torch
 from helpers import tiny_config
+
 from lrrt_training import store as store_module
 from lrrt_training.store import MazeStore
 

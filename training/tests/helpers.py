@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import torch
+
 from lrrt_training.network import PaperNetwork
 from lrrt_training.train import Stage, TrainConfig
 

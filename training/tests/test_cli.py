@@ -11,10 +11,11 @@ from pathlib import Path
 import onnx
 import pytest
 import typer
+from typer.testing import CliRunner
+
 from lrrt_training import cli
 from lrrt_training import train as train_file
 from lrrt_training.evaluate import CARD_BEGIN, CARD_END
-from typer.testing import CliRunner
 
 CONFIGS = Path(__file__).parents[1] / "configs"
 COMMANDS = ("generate", "train", "export", "evaluate")

@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
-import lrrt
 import numpy as np
 import pytest
 import torch
 from helpers import path_of
+from torch.utils.data import DataLoader
+
+import lrrt
 from lrrt_training.data import (
     LARGEST_SHRINK,
     MARKER_SIDE,
@@ -16,7 +18,6 @@ from lrrt_training.data import (
     class_frequencies,
     possible_scales,
 )
-from torch.utils.data import DataLoader
 
 LEVELS = [7, 9, 11, 13]
 WHITE, BLACK, RED, BLUE = (255, 255, 255), (0, 0, 0), (255, 0, 0), (0, 0, 255)
@@ -50,6 +51,11 @@ def test_item_depends_on_its_number_alone(store):
     assert not any(equal(forward[i], forward[i + 1]) for i in range(11))
     assert not equal(dataset(store, seed=2)[0], forward[0])
     assert not equal(dataset(store, split="test")[0], forward[0])
+
+
+def test_splits_draw_different_problems(store):
+    drawn = [[len(dataset(store, split=split).scene(i).blocks) for i in range(20)] for split in ("train", "test")]
+    assert drawn[0] != drawn[1]
 
 
 def test_types_and_shapes(store):

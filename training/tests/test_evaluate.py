@@ -11,10 +11,11 @@ import numpy as np
 import pytest
 import torch
 from helpers import lively_network
+from PIL import Image
+
 from lrrt_training import evaluate as scoring
 from lrrt_training import export
 from lrrt_training.data import MazeDataset
-from PIL import Image
 
 SIZE, LEVELS, MAZES = 64, [7, 11], 4
 PERFECT = {"accuracy": 1.0, "redundancy": 0.0, "metric": 0.0, "connectivity": 1.0}

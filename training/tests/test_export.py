@@ -6,13 +6,14 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-import lrrt
 import numpy as np
 import onnx
 import onnxruntime
 import pytest
 import torch
 from helpers import lively_network
+
+import lrrt
 from lrrt_training import export
 from lrrt_training.data import MazeDataset
 

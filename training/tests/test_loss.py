@@ -7,8 +7,9 @@ import math
 
 import pytest
 import torch
-from lrrt_training.loss import FocalLoss, balancing_weights
 from torch.nn import functional
+
+from lrrt_training.loss import FocalLoss, balancing_weights
 
 
 def scores_of(*probabilities: tuple[float, ...]) -> torch.Tensor:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from helpers import free_edges, search
+
 from lrrt_training import mazes
 
 LEVELS = (5, 7, 13, 21, 35, 49)

@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import torch
+
 from lrrt_training.metrics import RegionMetrics, accuracy, is_connected, redundancy
 
 # # obstacle, . free, * path, S and G path at the start and the goal

@@ -7,10 +7,11 @@ import lightning
 import numpy as np
 import pytest
 import torch
+from torch.utils.data import DataLoader
+
 from lrrt_training import module as module_file
 from lrrt_training.data import MazeDataset
 from lrrt_training.module import WARM_UP, RegionModule, learning_rate_factor, targets
-from torch.utils.data import DataLoader
 
 
 def test_learning_rate_rises_shortly_then_falls_to_zero():
@@ -83,9 +84,9 @@ class Losses(lightning.Callback):
 @pytest.mark.parametrize("classes", [3, 2])
 def test_a_small_network_learns_a_few_samples_by_heart(store, classes):
     lightning.seed_everything(1)
-    dataset = MazeDataset(store, "train", [5, 7], size=32, length=4, pixel_share=0.0)
-    samples = [dataset[i] for i in range(4)]
-    steps, rate = {3: 45, 2: 25}[classes], 8e-3
+    dataset = MazeDataset(store, "train", [5, 7], size=32, length=2, pixel_share=0.0)
+    samples = [dataset[i] for i in range(2)]
+    steps, rate = {3: 40, 2: 25}[classes], 8e-3
     record = Losses()
     trainer = lightning.Trainer(
         accelerator="cpu",
@@ -98,8 +99,8 @@ def test_a_small_network_learns_a_few_samples_by_heart(store, classes):
         enable_model_summary=False,
     )
     weights = {3: [0.7, 0.6, 4.0], 2: [0.6, 4.0]}[classes]
-    module = RegionModule(24, classes, False, weights, learning_rate=rate, samples=4 * steps)
-    trainer.fit(module, DataLoader(samples, 4))
+    module = RegionModule(24, classes, False, weights, learning_rate=rate, samples=2 * steps)
+    trainer.fit(module, DataLoader(samples, 2))
     assert len(record.losses) == steps, "the stage ends by its samples"
     assert record.losses[-1] < record.losses[0] / 5
     assert record.rates == pytest.approx([rate * learning_rate_factor(i / steps) for i in range(steps)])

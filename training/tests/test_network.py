@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import pytest
 import torch
+from torchvision.models import resnet18
+
 from lrrt_training.network import (
     PaperNetwork,
     ResidualKeepBlock,
@@ -12,7 +14,6 @@ from lrrt_training.network import (
     ResNet18Encoder,
     promising_probability,
 )
-from torchvision.models import resnet18
 
 PAPER_PARAMETERS = 22_886_371
 
@@ -74,6 +75,16 @@ def test_up_block_is_built_as_in_the_paper():
     for convolution in (block.main[3], keep.main[0], keep.main[3]):
         assert isinstance(convolution, torch.nn.ConvTranspose2d)
         assert (convolution.kernel_size, convolution.stride) == ((3, 3), (1, 1))
+
+
+def test_blocks_are_residual():
+    """With a silent main path the other path alone reaches the output."""
+    features = torch.rand(2, 4, 5, 5)
+    up, keep = ResidualUpBlock(4, 3), ResidualKeepBlock(4)
+    for block in (up, keep):
+        torch.nn.init.zeros_(block.main[-1].weight)
+    assert torch.equal(keep(features), features)
+    assert torch.allclose(up(features), up.residual(features).relu())
 
 
 def test_parameters_at_the_papers_width():

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+
 from lrrt_training.store import SPLITS, MazeStore, pack, unpack
 
 FEW = {"train": 5, "evaluation": 3, "test": 3}

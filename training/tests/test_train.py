@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 import torch
 from helpers import tiny_config
+
 from lrrt_training import train as train_file
 from lrrt_training.train import LogLine, TimedCheckpoint, load_module, train
 
