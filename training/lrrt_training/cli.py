@@ -83,6 +83,28 @@ def export(
 
 
 @app.command()
+def calibrate(
+    model: Annotated[Path, typer.Argument(help="ONNX file; its threshold is set.", exists=True, dir_okay=False)],
+    levels: Annotated[str, typer.Option(help="Levels, e.g. 21-49 or 21,35.")] = "21-49",
+    mazes: Annotated[int, typer.Option(help="Mazes a level, of the evaluation split.")] = 20,
+    data: Annotated[Path, typer.Option(help="Folder of the mazes.")] = DATA,
+) -> None:
+    """Choose the probability from which a pixel is promising: the lowest metric on the evaluation split."""
+    from . import evaluate as scoring
+
+    store = MazeStore(data)
+    wanted = _levels(levels)
+    store.generate(wanted, ("evaluation",))
+    thresholds = [round(0.05 * k, 2) for k in range(6, 20)]
+    metrics = scoring.metric_by_threshold(scoring.OnnxModel(model), store, wanted, mazes, thresholds)
+    for threshold, metric in zip(thresholds, metrics):
+        typer.echo(f"threshold {threshold:.2f}  metric {metric:.4f}")
+    best = thresholds[metrics.index(min(metrics))]
+    scoring.write_threshold(model, best)
+    typer.echo(f"{model}: threshold {best:g}")
+
+
+@app.command()
 def evaluate(
     model: Annotated[Path, typer.Argument(help="ONNX file.", exists=True, dir_okay=False)] = MODEL,
     levels: Annotated[str, typer.Option(help="Levels, e.g. 21-49 or 21,35.")] = "21,25,31,35,45,49",

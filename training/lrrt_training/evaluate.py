@@ -18,7 +18,7 @@ from rich.progress import track
 from rich.table import Table
 
 from .data import MazeDataset
-from .metrics import RegionMetrics
+from .metrics import RegionMetrics, accuracy, redundancy
 from .store import MazeStore
 
 Scores = dict[int | str, dict[str, float]]
@@ -54,6 +54,31 @@ def evaluate(model: OnnxModel, store: MazeStore, levels: list[int], mazes: int, 
         region = torch.from_numpy(model.probability(sample["image"]) >= model.threshold)
         metrics.update(region[None], sample["label"][None], sample["ends"][None], torch.tensor([sample["level"]]))
     return metrics.compute()
+
+
+def metric_by_threshold(
+    model: OnnxModel, store: MazeStore, levels: list[int], mazes: int, thresholds: list[float]
+) -> list[float]:
+    """The paper's metric on the evaluation split for each threshold, mean over maps; lower is better."""
+    dataset = MazeDataset(store, "evaluation", levels, model.size, mazes * len(levels), in_turn=True)
+    sums = np.zeros(len(thresholds))
+    for i in track(range(len(dataset)), description=f"{model.path.name}: {len(thresholds)} thresholds"):
+        sample = dataset[i]
+        probability = model.probability(sample["image"])
+        regions = torch.from_numpy(np.stack([probability >= t for t in thresholds]))
+        labels = sample["label"].expand(len(thresholds), -1, -1)
+        sums += (1 - accuracy(regions, labels) + redundancy(regions, labels)).numpy()
+    return [float(value) for value in sums / len(dataset)]
+
+
+def write_threshold(path: Path, threshold: float) -> None:
+    """Sets the threshold in a model's metadata; the file is replaced as a whole."""
+    graph = onnx.load(path)
+    properties = {entry.key: entry.value for entry in graph.metadata_props}
+    onnx.helper.set_model_props(graph, {**properties, "threshold": f"{threshold:g}"})
+    temporary = path.with_name(f".{path.name}.part")
+    onnx.save(graph, temporary)
+    os.replace(temporary, path)
 
 
 def rich_table(title: str, scores: Scores) -> Table:

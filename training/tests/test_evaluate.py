@@ -30,8 +30,8 @@ class Fake:
 
     path, size, threshold = Path("fake.onnx"), SIZE, 0.5
 
-    def __init__(self, store, answer) -> None:
-        dataset = MazeDataset(store, "test", LEVELS, SIZE, MAZES * len(LEVELS), in_turn=True)
+    def __init__(self, store, answer, split="test") -> None:
+        dataset = MazeDataset(store, split, LEVELS, SIZE, MAZES * len(LEVELS), in_turn=True)
         samples = [dataset[i] for i in range(len(dataset))]
         self.answers = {s["image"].numpy().tobytes(): answer(s).numpy().astype(np.float32) for s in samples}
 
@@ -60,6 +60,26 @@ def test_the_threshold_belongs_to_the_region(store):
     )
     assert at["all"]["accuracy"] == 1.0
     assert below["all"] == {**PERFECT, "accuracy": 0.0, "metric": 1.0, "connectivity": 0.0, "count": 2 * MAZES}
+
+
+def test_the_metric_tells_the_best_threshold(store):
+    """Free pixels at 0.6 are redundant below that threshold, the path at 0.8 is missed above that one."""
+    values = torch.tensor([0.6, 0.1, 0.8])
+    fake = Fake(store, lambda s: values[s["label"].long()], "evaluation")
+    low, between, high = scoring.metric_by_threshold(fake, store, LEVELS, MAZES, [0.5, 0.7, 0.9])
+    assert low > 0.5 and between == 0.0 and high == 1.0
+
+
+def test_a_threshold_is_written_into_the_file(model, tmp_path):
+    path = tmp_path / "copy.onnx"
+    path.write_bytes(model.path.read_bytes())
+    scoring.write_threshold(path, 0.65)
+    copy = scoring.OnnxModel(path, threads=1)
+    assert copy.threshold == 0.65
+    assert {k: v for k, v in copy.properties.items() if k != "threshold"} == {
+        k: v for k, v in model.properties.items() if k != "threshold"
+    }
+    assert list(tmp_path.iterdir()) == [path]
 
 
 def test_a_model_that_marks_everything_is_redundant(store):
