@@ -80,8 +80,8 @@ struct PlanOptions {
   double goal_bias = 0.05;               ///< share of iterations that aim at the goal (RRT and RRT*)
   double goal_tolerance = 0.0;           ///< the path may end this far from the goal, map units; 0 ends exactly there
   Stop stop = Stop::first;
-  double cost_factor =
-      1.05;  ///< for Stop::factor: the reference is the shortest grid path, straightened by line of sight
+  /// For Stop::factor. The reference is the shortest grid path, straightened by line of sight.
+  double cost_factor = 1.05;
   double time_limit = 5.0;  ///< seconds of planning, prediction not counted
   std::size_t iteration_limit = std::numeric_limits<std::size_t>::max();
   std::uint64_t seed = 1;  ///< same seed, same result on one thread (unless time ends the search)
@@ -90,8 +90,8 @@ struct PlanOptions {
 
 /// Wall-clock time of each stage, milliseconds.
 struct PlanTimings {
-  double prepare =
-      0.0;  ///< inflation, reachability, distance field; choosing a range, the reference cost, setting up OMPL
+  /// Inflation, reachability, distance field; choosing a range, the reference cost, setting up OMPL.
+  double prepare = 0.0;
   double encode = 0.0;  ///< see PredictTimings
   double infer = 0.0;
   double region = 0.0;
