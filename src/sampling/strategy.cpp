@@ -38,7 +38,7 @@ Eigen::Vector2d RegionStrategy::draw(Random& random) const {
 
 MixedSampler::MixedSampler(std::unique_ptr<SamplingStrategy> guided, UniformStrategy uniform, double alpha,
                            std::uint64_t seed)
-    : guided_(std::move(guided)), uniform_(uniform), alpha_(alpha), random_(seed) {
+    : guided_(std::move(guided)), uniform_(std::move(uniform)), alpha_(alpha), random_(seed) {
   if (!(alpha >= 0.0 && alpha <= 1.0)) {
     throw RequestError("alpha " + std::to_string(alpha) + ": expected a share of guided samples from 0 to 1");
   }
