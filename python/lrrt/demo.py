@@ -81,7 +81,7 @@ def picture(
     """Four panels: the map, the region, the two trees."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(20, 5.6), layout="constrained")
+    figure = Figure(figsize=(20, 6.2), layout="constrained")
     axes = list(figure.subplots(1, 2 + len(contenders)))
     draw(map_, start=start, goal=goal, ax=axes[0]).set_title("map, start (red), goal (blue)")
     joined = "joins start and goal" if region.connected else "has gaps, which the planner bridges"
