@@ -81,7 +81,7 @@ def picture(
     """Four panels: the map, the region, the two trees."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(20, 6.2), layout="constrained")
+    figure = Figure(figsize=(20, 5.6), layout="constrained")
     axes = list(figure.subplots(1, 2 + len(contenders)))
     draw(map_, start=start, goal=goal, ax=axes[0]).set_title("map, start (red), goal (blue)")
     joined = "joins start and goal" if region.connected else "has gaps, which the planner bridges"
@@ -95,7 +95,7 @@ def picture(
     for ax in axes:
         ax.set_axis_off()
     temporary = path.with_name(f".{path.name}.part")
-    figure.savefig(temporary, dpi=90, format=path.suffix.lstrip(".") or "png")
+    figure.savefig(temporary, dpi=90, format=path.suffix.lstrip(".") or "png", bbox_inches="tight")
     temporary.replace(path)
 
 
