@@ -117,7 +117,7 @@ def test_help_teaches(words):
 
 def test_the_installed_command_runs(picture):
     command = Path(sys.executable).with_name("lrrt")
-    program = [str(command)] if command.exists() else [sys.executable, "-c", "from lrrt.cli import main; main()"]
+    program = [str(command)] if command.exists() else [sys.executable, "-m", "lrrt"]
     words = ["plan", str(picture), "--start", "5", "5", "--goal", "35", "5", "--json"]
     run = subprocess.run([*program, *words], capture_output=True, text=True, check=True)
     assert json.loads(run.stdout)["solved"] and run.stderr == ""
