@@ -9,7 +9,7 @@ preset="${1:-release}"
 folder="$root/build/$preset"
 python="$venv/bin/python"
 
-want="$(fingerprint "$root/CMakePresets.json" "$venv" "$("$python" -VV)" "${ONNXRUNTIME_ROOT:-}")"
+want="$(fingerprint "$root/CMakePresets.json" "$venv" "$("$python" -VV)" "$(cmake --version)" "${ONNXRUNTIME_ROOT:-}")"
 if [ ! -f "$folder/build.ninja" ] || ! is_current "configure-$preset" "$want"; then
   say "Configuring build/$preset"
   (cd "$root" && cmake --preset "$preset" -DLRRT_BUILD_PYTHON=ON -DPython_EXECUTABLE="$python" \
