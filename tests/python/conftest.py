@@ -5,8 +5,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import settings
 
 import lrrt
+
+# How long an example takes says more about the machine than about the code.
+settings.register_profile("lrrt", deadline=None)
+settings.load_profile("lrrt")
 
 
 @pytest.fixture

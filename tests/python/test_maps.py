@@ -130,7 +130,7 @@ def test_rubbish_is_a_map_error(tmp_path_factory, content, name):
         lrrt.read_map(path)
 
 
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(arrays(bool, st.tuples(st.integers(2, 16), st.integers(2, 16))), st.randoms(use_true_random=False))
 def test_shortest_paths_are_free_and_exist_where_a_flood_fill_says_so(occupied, random):
     free = ~occupied

@@ -50,7 +50,7 @@ def check(result: lrrt.PlanResult, m: lrrt.OccupancyMap, free: np.ndarray, start
     assert (np.diff(costs) < 0).all() and costs[-1] == pytest.approx(result.cost, abs=1e-6)
 
 
-@settings(deadline=None, max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.integers(0, 2**32), st.sampled_from(lrrt.planner_names()), st.booleans())
 def test_results_are_honest(predictor, seed, planner, guided):
     rng = np.random.default_rng(seed)
