@@ -115,6 +115,14 @@ def test_moving_ai_maps_and_scenarios():
     assert scenarios
 
 
+def test_errors_may_quote_bytes_that_are_no_text(tmp_path):
+    (tmp_path / "x.map").write_bytes(b"type \xff\xfe\nheight 1\nwidth 1\nmap\n.\n")
+    (tmp_path / "x.yaml").write_bytes(b"image: a.png\nresolution: \xff\n")
+    for name in ("x.map", "x.yaml"):
+        with pytest.raises(lrrt.MapError, match=name):
+            lrrt.read_map(tmp_path / name)
+
+
 @pytest.mark.parametrize("name", ["missing.png", "missing.yaml", "missing.map"])
 def test_missing_files_are_named(tmp_path, name):
     with pytest.raises(lrrt.MapError, match=name):
