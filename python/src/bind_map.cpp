@@ -60,12 +60,12 @@ OccupancyMap from_array(const py::object& occupied, std::optional<double> resolu
 }
 
 /// A read-only view of the map's own cells.
-py::array cells_view(const py::object& self) {
+py::array_t<std::uint8_t> cells_view(const py::object& self) {
   const auto& map = self.cast<const OccupancyMap&>();
   py::array_t<std::uint8_t> view({map.height(), map.width()}, reinterpret_cast<const std::uint8_t*>(map.cells().data()),
                                  self);
   view.attr("setflags")(py::arg("write") = false);
-  return std::move(view);
+  return view;
 }
 
 py::array_t<double> path_array(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal) {

@@ -23,11 +23,11 @@ Encoding encode(const Encoder& encoder, const OccupancyMap& map, const Eigen::Ve
   return result;
 }
 
-py::array image_view(const py::object& self) {
+py::array_t<std::uint8_t> image_view(const py::object& self) {
   const auto& encoding = self.cast<const Encoding&>();
   py::array_t<std::uint8_t> view({3, encoding.fit.size, encoding.fit.size}, encoding.image.data(), self);
   view.attr("setflags")(py::arg("write") = false);
-  return std::move(view);
+  return view;
 }
 
 void check_shape(const py::array& array, py::ssize_t rows, py::ssize_t columns, const char* what) {
