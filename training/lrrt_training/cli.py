@@ -4,15 +4,20 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from .mazes import check_level
 from .store import MazeStore, check_split
 
+if TYPE_CHECKING:
+    import lrrt
+
 DATA = Path("data_cache")
+EXTERNAL = Path("../../shared/maps")
 MODEL = Path("../models/default.onnx")
+CALIBRATION_PICTURES = 128  #: training pictures that show the quantizer the range of the activations
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -22,26 +27,22 @@ app = typer.Typer(
 )
 
 
-@app.command()
+@app.command(context_settings={"allow_extra_args": True, "ignore_unknown_options": True})
 def train(
+    context: typer.Context,
     config: Annotated[Path, typer.Option(help="YAML file, see configs/.", exists=True, dir_okay=False)],
-    minutes: Annotated[float, typer.Option(help="Longest time of each stage; 0 leaves the file's.")] = 0.0,
 ) -> None:
-    """Train, or go on with an interrupted run: the same command does both."""
-    from jsonargparse import ArgumentParser
+    """Train, or go on with an interrupted run: the same command does both.
 
-    from .train import TrainConfig
+    Further options go to LightningCLI: --trainer.devices 2, --data.workers 4, --name trial …
+    """
+    from lightning.pytorch.utilities import rank_zero_only
+
     from .train import train as run
 
-    parser = ArgumentParser()
-    parser.add_class_arguments(TrainConfig, None)
-    values = parser.instantiate(parser.parse_path(str(config)))
-    settings = TrainConfig(**vars(values))
-    if minutes > 0:
-        for stage in settings.stages:
-            stage.minutes = minutes
     try:
-        typer.echo(f"trained: {run(settings)}")
+        folder = run(["--config", str(config), *context.args])
+        rank_zero_only(typer.echo)(f"trained: {folder}")
     except KeyboardInterrupt as stop:
         typer.echo(str(stop) or "interrupted; the same command goes on", err=True)
         raise typer.Exit(130) from None
@@ -60,46 +61,71 @@ def generate(
 
 @app.command()
 def export(
-    run: Annotated[Path, typer.Argument(help="Folder of a run (its last stage is taken) or a checkpoint.")],
-    output: Annotated[Path, typer.Option(help="ONNX file to write.")] = MODEL,
-    size: Annotated[int, typer.Option(help="Side of the network's input, pixels.")] = 256,
+    run: Annotated[Path, typer.Argument(help="Folder of a run.", exists=True, file_okay=False)],
+    output: Annotated[Path, typer.Option(help="ONNX file to write (fp32).")] = MODEL,
+    int8: Annotated[bool, typer.Option(help="Quantize to int8 instead, calibrated on training pictures.")] = False,
+    torchscript: Annotated[bool, typer.Option(help="Also write a TorchScript archive (.pt) beside it.")] = False,
+    size: Annotated[int, typer.Option(help="Side of the network's input, pixels; 0: that of the last stage.")] = 0,
     training_data: Annotated[str, typer.Option(help="For the metadata: what it was trained on.")] = "",
     training_budget: Annotated[str, typer.Option(help="For the metadata: how long, on what.")] = "",
 ) -> None:
-    """Export a checkpoint to ONNX and compare the file with PyTorch."""
-    import torch
+    """Export a run to ONNX and compare the file with PyTorch."""
+    from . import export as files
+    from .train import load_data, load_network
 
-    from .export import TOLERANCE, export_onnx, metadata, parity
-    from .train import load_module
-
-    module = load_module(_last_checkpoint(run))
+    try:
+        network, training = load_network(run), load_data(run)
+    except FileNotFoundError as error:
+        raise typer.BadParameter(str(error)) from error
+    size = size or training.curriculum.stages[-1].size
+    if size % network.stride:
+        raise typer.BadParameter(f"--size {size}: expected a multiple of {network.stride} for this network")
     output.parent.mkdir(parents=True, exist_ok=True)
-    properties = metadata(output.stem, size, module.hparams.classes, training_data, training_budget)
-    export_onnx(module.network, output, size, properties)
-    difference = parity(module.network, output, torch.randint(0, 256, (2, 3, size, size), dtype=torch.uint8))
-    typer.echo(f"{output}: {output.stat().st_size / 1e6:.1f} MB, largest difference to PyTorch {difference:.1e}")
-    if difference > TOLERANCE:
+    properties = files.metadata(output.stem, size, network.classes, training_data, training_budget, run.name)
+    training.prepare_data()
+    images = training.pictures(CALIBRATION_PICTURES, size)
+    fp32 = output.with_suffix(".fp32.onnx") if int8 else output
+    try:
+        files.export_onnx(network, fp32, size, properties)
+        worst = _report(files.parity(network, fp32, images[:4]), fp32)
+        if torchscript:
+            archive = output.with_suffix(".pt")
+            files.export_torchscript(network, archive, size, properties)
+            worst = max(worst, _report(files.parity(network, archive, images[:4]), archive))
+        if int8:
+            files.export_int8(fp32, output, images)
+            _report(files.parity(network, output, images[:4]), output)
+    finally:
+        if int8:
+            fp32.unlink(missing_ok=True)
+    if worst > files.TOLERANCE:
         raise typer.Exit(1)
+
+
+def _report(difference: float, path: Path) -> float:
+    typer.echo(f"{path}: {path.stat().st_size / 1e6:.1f} MB, largest difference to PyTorch {difference:.1e}")
+    return difference
 
 
 @app.command()
 def calibrate(
     model: Annotated[Path, typer.Argument(help="ONNX file; its threshold is set.", exists=True, dir_okay=False)],
     levels: Annotated[str, typer.Option(help="Levels, e.g. 21-49 or 21,35.")] = "21-49",
-    mazes: Annotated[int, typer.Option(help="Mazes a level, of the evaluation split.")] = 20,
+    maps: Annotated[int, typer.Option(help="Maps a group, of the evaluation split.", min=1)] = 20,
+    families: Annotated[bool, typer.Option(help="Also the families and external maps.")] = False,
     data: Annotated[Path, typer.Option(help="Folder of the mazes.")] = DATA,
+    external: Annotated[Path, typer.Option(help="Folder of maps of other sources.")] = EXTERNAL,
 ) -> None:
     """Choose the probability from which a pixel is promising: the lowest metric on the evaluation split."""
     from . import evaluate as scoring
 
-    store = MazeStore(data)
-    wanted = _levels(levels)
-    store.generate(wanted, ("evaluation",))
-    thresholds = [round(0.05 * k, 2) for k in range(6, 20)]
-    metrics = scoring.metric_by_threshold(scoring.OnnxModel(model), store, wanted, mazes, thresholds)
-    for threshold, metric in zip(thresholds, metrics):
-        typer.echo(f"threshold {threshold:.2f}  metric {metric:.4f}")
-    best = thresholds[metrics.index(min(metrics))]
+    predictor = _predictor(model)
+    groups = _groups(data, external, "evaluation", _levels(levels), families, predictor.info.input_size)
+    thresholds = [round(0.05 * k, 2) for k in range(2, 18)]
+    rows = scoring.metric_by_threshold(predictor, groups, maps, thresholds)
+    for threshold, (metric, connected) in zip(thresholds, rows):
+        typer.echo(f"threshold {threshold:.2f}  metric {metric:.4f}  connected {100 * connected:.1f} %")
+    best = thresholds[min(range(len(rows)), key=lambda k: rows[k][0])]
     scoring.write_threshold(model, best)
     typer.echo(f"{model}: threshold {best:g}")
 
@@ -107,44 +133,60 @@ def calibrate(
 @app.command()
 def evaluate(
     model: Annotated[Path, typer.Argument(help="ONNX file.", exists=True, dir_okay=False)] = MODEL,
-    levels: Annotated[str, typer.Option(help="Levels, e.g. 21-49 or 21,35.")] = "21,25,31,35,45,49",
-    mazes: Annotated[int, typer.Option(help="Mazes a level.")] = 200,
+    levels: Annotated[str, typer.Option(help="Levels, e.g. 21-49 or 21,35.")] = "21-49",
+    maps: Annotated[int, typer.Option(help="Maps a group.", min=1)] = 200,
+    families: Annotated[bool, typer.Option(help="Also the families and external maps.")] = True,
     split: Annotated[str, typer.Option(help="train, evaluation or test.")] = "test",
     data: Annotated[Path, typer.Option(help="Folder of the mazes.")] = DATA,
+    external: Annotated[Path, typer.Option(help="Folder of maps of other sources.")] = EXTERNAL,
     threads: Annotated[int, typer.Option(help="Threads of ONNX Runtime.")] = 2,
     record: Annotated[bool, typer.Option(help="Write the scores to manifest.json and the model card.")] = False,
     sheet: Annotated[Path | None, typer.Option(help="Also write a contact sheet of predictions (PNG).")] = None,
 ) -> None:
-    """Score an exported model on held-out mazes."""
+    """Score an exported model on held-out maps, as users run it: by the library, in map pixels."""
     from rich.console import Console
 
     from . import evaluate as scoring
 
-    store = MazeStore(data)
-    wanted = _levels(levels)
-    try:
-        check_split(split)
-    except ValueError as error:
-        raise typer.BadParameter(str(error)) from error
-    store.generate(wanted, (split,))
-    loaded = scoring.OnnxModel(model, threads)
-    scores = scoring.evaluate(loaded, store, wanted, mazes, split)
-    Console().print(scoring.rich_table(f"{model.name}, {split} mazes", scores))
+    predictor = _predictor(model, threads)
     if record:
-        scoring.write_manifest(model.parent, loaded, scores, split)
+        try:
+            scoring.check_card(model.parent / "README.md")
+        except ValueError as error:
+            raise typer.BadParameter(f"--record: {error}") from error
+    groups = _groups(data, external, split, _levels(levels), families, predictor.info.input_size)
+    scores = scoring.evaluate(predictor, groups, maps, split)
+    Console().print(scoring.rich_table(f"{model.name}, {split} maps", scores))
+    if record:
+        scoring.write_manifest(model.parent, model, scores, split)
         scoring.write_card_table(model.parent / "README.md", scores)
     if sheet is not None:
-        scoring.contact_sheet(loaded, store, wanted, sheet)
+        scoring.contact_sheet(predictor, groups, sheet, split=split)
 
 
-def _last_checkpoint(run: Path) -> Path:
-    """The checkpoint of the last stage in the folder of a run; a file is taken as it is."""
-    if run.is_file():
-        return run
-    checkpoints = sorted(run.glob("stage*.ckpt"), key=lambda path: int(path.stem.removeprefix("stage")))
-    if not checkpoints:
-        raise typer.BadParameter(f"{run}: no checkpoint (stage1.ckpt …) there; train first")
-    return checkpoints[-1]
+def _predictor(model: Path, threads: int = 0) -> lrrt.OnnxPredictor:
+    import lrrt
+
+    try:
+        return lrrt.OnnxPredictor(model, threads=threads)
+    except lrrt.ModelError as error:
+        raise typer.BadParameter(str(error)) from error
+
+
+def _groups(data: Path, external: Path, split: str, levels: list[int], families: bool, size: int) -> dict:
+    """The groups of scenes to score, their mazes generated where they are missing."""
+    from .families.external import ExternalMaps
+    from .scenes import SceneSource
+
+    try:
+        check_split(split)
+        outside = ExternalMaps(external)
+    except ValueError as error:
+        raise typer.BadParameter(str(error)) from error
+    store = MazeStore(data)
+    store.generate(levels, (split,))
+    groups = SceneSource(store, outside, split).groups(levels, size)
+    return groups if families else {str(level): groups[str(level)] for level in levels}
 
 
 def _levels(text: str) -> list[int]:

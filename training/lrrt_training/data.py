@@ -1,184 +1,200 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Training samples: a maze, a start and a goal become network input and label, by the library's own encoder."""
+"""Training samples: a scene becomes network input and label, by the library's own encoder; and the curriculum."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
 
+import lightning
 import numpy as np
 import torch
-from torch.utils.data import Dataset, Sampler
+from torch.utils.data import DataLoader, Dataset, Sampler
 
 import lrrt
 
-from . import mazes
-from .metrics import GOAL, OBSTACLE, PROMISING, START
-from .store import SPLITS, MazeStore, unpack
+from . import families
+from .families.external import ExternalMaps
+from .metrics import GOAL, OBSTACLE, START
+from .scenes import Scene, SceneSource
+from .store import SPLITS, MazeStore
 
 MARKER_SIDE = 5  #: least side of the start and goal markers, in pixels of the network's input
-SMALLEST_BLOCK = 3.0  #: least size of a block in the network's input, in pixels
-LARGEST_SHRINK = 1.5  #: how far a picture may exceed the input
+_WARM_UP = 0.03  #: share of a stage in which the learning rate rises
+
+
+@dataclass
+class Stage:
+    """One step of the curriculum. Every batch mixes its levels, families and external maps."""
+
+    size: int  #: side of the network's input, pixels
+    samples: int  #: length
+    batch_size: int  #: samples a batch of one process
+    levels: list[int]  #: maze levels, blocks a side
+    learning_rate: float = 1e-3  #: highest
+    pixel_share: float = 0.5  #: share of the mazes with several map pixels a block
+    family_share: float = 0.0  #: share of the samples from map families
+    external_share: float = 0.0  #: share of the samples from external maps (0 where there are none)
+
+    def learning_rate_at(self, progress: float) -> float:
+        """Learning rate at a share of the stage in [0, 1]: a short rise, then half a cosine down to 0."""
+        rise = min(1.0, progress / _WARM_UP + 0.02)
+        return float(self.learning_rate * rise * 0.5 * (1.0 + np.cos(np.pi * min(1.0, progress))))
 
 
 @dataclass(frozen=True)
-class Scene:
-    """One planning problem on a map of blocks.
+class Curriculum:
+    """Stages one after the other, with all samples numbered through."""
 
-    ``scale`` is the number of map pixels per block; ``start`` and ``goal`` are (x, y) in map pixels.
-    """
+    stages: list[Stage] = field(default_factory=list)
 
-    blocks: np.ndarray  #: (m, m) bool, True = occupied
-    path: np.ndarray  #: (m, m) bool, the blocks of the shortest path
-    ends: np.ndarray  #: (m, m) uint8, START and GOAL on their blocks
-    scale: int
-    start: tuple[float, float]
-    goal: tuple[float, float]
+    @property
+    def samples(self) -> int:
+        return sum(stage.samples for stage in self.stages)
 
-    def enlarge(self, blocks: np.ndarray) -> np.ndarray:
-        """A picture at block resolution → at map resolution."""
-        return np.kron(blocks, np.ones((self.scale, self.scale), dtype=blocks.dtype)) if self.scale > 1 else blocks
+    def begin(self, number: int) -> int:
+        """Number of the first sample of a stage."""
+        return sum(stage.samples for stage in self.stages[:number])
 
-    def label(self) -> np.ndarray:
-        """(m, m) uint8 classes: 0 free, 1 obstacle, 2 promising."""
-        return np.where(self.path, PROMISING, self.blocks.astype(np.uint8)).astype(np.uint8)
+    def stage_at(self, sample: int) -> int:
+        """Number of the stage of a sample."""
+        for number in range(len(self.stages)):
+            if sample < self.begin(number + 1):
+                return number
+        raise IndexError(f"sample {sample}: the curriculum has {self.samples}")
 
-    def occupancy_map(self) -> lrrt.OccupancyMap:
-        return lrrt.OccupancyMap.from_array(np.ascontiguousarray(self.enlarge(self.blocks)))
-
-
-def possible_scales(level: int, size: int) -> list[int]:
-    """Map pixels per block (at least 2) for which blocks keep SMALLEST_BLOCK pixels of an input of side ``size``."""
-    scales = []
-    for scale in range(2, 2 * size // level + 1):
-        crop = (level - 2) * scale + 2  # the encoder keeps one pixel of the border wall
-        zoom = size // crop if crop <= size else size / crop
-        if crop <= LARGEST_SHRINK * size and scale * zoom >= SMALLEST_BLOCK:
-            scales.append(scale)
-    return scales
+    def learning_rate_at(self, sample: int) -> float:
+        number = self.stage_at(sample)
+        return self.stages[number].learning_rate_at((sample - self.begin(number)) / self.stages[number].samples)
 
 
-def path_blocks(blocks: np.ndarray, start: tuple[int, int], goal: tuple[int, int]) -> np.ndarray:
-    """(m, m) bool, the blocks of the shortest path between two blocks given as (row, column)."""
-    centres = [(float(column) + 0.5, float(row) + 0.5) for row, column in (start, goal)]
-    points = lrrt.shortest_path(lrrt.OccupancyMap.from_array(blocks), *centres)
-    columns, rows = np.floor(np.asarray(points)).astype(int).T
-    path = np.zeros(blocks.shape, dtype=bool)
-    path[rows, columns] = True
-    return path
+def encoded(encoder: lrrt.Encoder, scene: Scene) -> dict[str, torch.Tensor]:
+    """A scene as the network sees it: ``image`` (3, S, S) uint8, ``label`` (S, S) uint8 classes and ``ends`` (S, S)
+    uint8 with the markers of start (1) and goal (2)."""
+    encoding = encoder.encode(scene.occupancy_map(), scene.start, scene.goal)
+    image = np.array(encoding.image)
+    red, blue = ((image == np.array(colour, np.uint8)[:, None, None]).all(axis=0) for colour in (_RED, _BLUE))
+    return {
+        "image": torch.from_numpy(image),
+        "label": torch.from_numpy(np.array(encoding.to_input(scene.label(encoding.scale), fill=OBSTACLE))),
+        "ends": torch.from_numpy((START * red + GOAL * blue).astype(np.uint8)),
+    }
 
 
-def _position(rng: np.random.Generator, block: tuple[int, int], scale: int) -> tuple[float, float]:
-    """The centre of a random map pixel of the block (row, column), as (x, y)."""
-    row, column = (int(b) * scale + int(rng.integers(scale)) for b in block)
-    return column + 0.5, row + 0.5
+_RED, _BLUE = (255, 0, 0), (0, 0, 255)  # of the markers: nothing else in a picture has a colour
 
 
-def random_scene(rng: np.random.Generator, blocks: np.ndarray, scale: int) -> Scene:
-    """The maze in one of its 8 symmetries, with random start and goal and the shortest path between them."""
-    blocks = np.rot90(blocks, int(rng.integers(4)))
-    blocks = np.ascontiguousarray(blocks.T if rng.integers(2) else blocks)
-    start, goal = mazes.random_ends(rng, blocks)
-    ends = np.zeros(blocks.shape, dtype=np.uint8)
-    ends[start], ends[goal] = START, GOAL
-    return Scene(
-        blocks=blocks,
-        path=path_blocks(blocks, start, goal),
-        ends=ends,
-        scale=scale,
-        start=_position(rng, start, scale),
-        goal=_position(rng, goal, scale),
-    )
+class SceneDataset(Dataset):
+    """Sample i of a curriculum is a function of (seed, split, i) alone. An item has the keys of ``encoded`` and
+    ``index``, the number of the sample."""
+
+    def __init__(self, curriculum: Curriculum, source: SceneSource, seed: int = 1) -> None:
+        self.curriculum, self.source, self.seed = curriculum, source, seed
+        self._encoders: dict[int, lrrt.Encoder] = {}
+
+    def __len__(self) -> int:
+        return self.curriculum.samples
+
+    def scene(self, index: int) -> Scene:
+        """The planning problem of a sample."""
+        rng = np.random.default_rng([self.seed, SPLITS.index(self.source.split), index])
+        stage = self.curriculum.stages[self.curriculum.stage_at(index)]
+        outside = self.source.external.names()
+        draw = rng.random()
+        if draw < stage.family_share:
+            return self.source.family(rng, _one_of(rng, list(families.FAMILIES)), stage.size)
+        if outside and draw < stage.family_share + stage.external_share:
+            return self.source.outside(rng, _one_of(rng, outside))
+        return self.source.maze(rng, _one_of(rng, stage.levels), stage.size, stage.pixel_share)
+
+    def __getitem__(self, index: int) -> dict[str, Any]:
+        size = self.curriculum.stages[self.curriculum.stage_at(index)].size
+        if size not in self._encoders:
+            self._encoders[size] = lrrt.Encoder(size=size, marker_side=MARKER_SIDE)
+        return {**encoded(self._encoders[size], self.scene(index)), "index": index}
 
 
-class MazeDataset(Dataset):
-    """Sample i is a function of (seed, split, i) alone.
+def _one_of(rng: np.random.Generator, items: list[Any]) -> Any:
+    return items[int(rng.integers(len(items)))]
 
-    An item is a dict: ``image`` (3, S, S) uint8, ``label`` (S, S) uint8 classes, ``ends`` (S, S) uint8 with the
-    blocks of start (1) and goal (2), ``level`` int. The level of every sample is drawn anew, so every batch mixes
-    levels.
+
+class CurriculumBatches(Sampler[list[int]]):
+    """Consecutive sample numbers from ``first`` on, in batches that never mix stages; each process of a distributed run
+    takes its share of every step. What does not fill a step at the end of a stage is left out."""
+
+    def __init__(self, curriculum: Curriculum, first: int = 0, rank: int = 0, processes: int = 1) -> None:
+        self.curriculum, self.first, self.rank, self.processes = curriculum, first, rank, processes
+
+    def __len__(self) -> int:
+        """Steps of the whole curriculum, those before ``first`` included, as Lightning counts them."""
+        return sum(stage.samples // (stage.batch_size * self.processes) for stage in self.curriculum.stages)
+
+    def __iter__(self) -> Iterator[list[int]]:
+        for number, stage in enumerate(self.curriculum.stages):
+            step = stage.batch_size * self.processes
+            begin, end = self.curriculum.begin(number), self.curriculum.begin(number + 1)
+            skipped = max(0, -(-(self.first - begin) // step))
+            for at in range(begin + skipped * step, end - step + 1, step):
+                mine = at + self.rank * stage.batch_size
+                yield list(range(mine, mine + stage.batch_size))
+
+
+class RegionData(lightning.LightningDataModule):
+    """The samples of a training run.
 
     Args:
-        store: where the mazes come from.
-        split: "train", "evaluation" or "test".
-        levels: maze levels.
-        size: side of the network's input.
-        length: number of samples.
+        stages: the curriculum.
+        folder: where the mazes are kept; what is missing is generated.
+        external: folder with maps of other sources (see ExternalMaps); may be empty or absent.
         seed: seed of the samples (the mazes have the store's).
-        pixel_share: share of the samples whose map has several pixels a block; the others have one.
-        in_turn: takes levels and mazes in turn instead of at random: ``length`` / len(levels) different mazes of each
-            level.
+        workers: processes that make samples.
     """
 
     def __init__(
         self,
-        store: MazeStore,
-        split: str,
-        levels: list[int],
-        size: int,
-        length: int,
+        stages: list[Stage],
+        folder: Path = Path("data_cache"),
+        external: Path = Path("../../shared/maps"),
         seed: int = 1,
-        pixel_share: float = 0.5,
-        in_turn: bool = False,
+        workers: int = 1,
     ) -> None:
-        if split not in SPLITS:
-            raise ValueError(f"split {split!r}: expected one of {', '.join(SPLITS)}")
-        self.store, self.split, self.levels, self.length = store, split, list(levels), length
-        self.seed, self.pixel_share, self.in_turn = seed, pixel_share, in_turn
-        self.size = size
-        self.encoder = lrrt.Encoder(size=size, marker_side=MARKER_SIDE)
+        super().__init__()
+        self.curriculum = Curriculum(stages)
+        self.folder, self.external, self.seed, self.workers = folder, external, seed, workers
+        self.first = 0  #: number of the first sample to come
 
-    def __len__(self) -> int:
-        return self.length
+    def prepare_data(self) -> None:
+        MazeStore(self.folder).generate(sorted({m for s in self.curriculum.stages for m in s.levels}), ("train",))
 
-    def scene(self, index: int) -> Scene:
-        """The planning problem of sample ``index``."""
-        rng = np.random.default_rng([self.seed, SPLITS.index(self.split), index])
-        level_draw, maze_draw = rng.random(2)
-        if self.in_turn:
-            level = self.levels[index % len(self.levels)]
-            stored = self.store.mazes(self.split, level)
-            maze = index // len(self.levels) % len(stored)
-        else:
-            level = self.levels[int(level_draw * len(self.levels))]
-            stored = self.store.mazes(self.split, level)
-            maze = int(maze_draw * len(stored))
-        scales = possible_scales(level, self.size)
-        scale = int(rng.choice(scales)) if scales and rng.random() < self.pixel_share else 1
-        return random_scene(rng, unpack(stored[maze], level), scale)
+    def dataset(self) -> SceneDataset:
+        source = SceneSource(MazeStore(self.folder), ExternalMaps(self.external), "train")
+        return SceneDataset(self.curriculum, source, self.seed)
 
-    def __getitem__(self, index: int) -> dict[str, torch.Tensor | int]:
-        scene = self.scene(index)
-        encoding = self.encoder.encode(scene.occupancy_map(), scene.start, scene.goal)
-        label = encoding.to_input(scene.enlarge(scene.label()), fill=OBSTACLE)
-        ends = encoding.to_input(scene.enlarge(scene.ends), fill=0)
-        return {
-            "image": torch.from_numpy(np.array(encoding.image)),
-            "label": torch.from_numpy(np.array(label)),
-            "ends": torch.from_numpy(np.array(ends)),
-            "level": len(scene.blocks),
-        }
+    def train_dataloader(self) -> DataLoader:
+        batches = CurriculumBatches(self.curriculum, self.first, self.trainer.global_rank, self.trainer.world_size)
+        return DataLoader(self.dataset(), batch_sampler=batches, num_workers=self.workers)
 
+    def class_frequencies(self, samples: int = 200) -> list[float]:
+        """Shares of the pixels of the three classes over samples of the last stage."""
+        dataset, counts = self.dataset(), np.zeros(3)
+        last = len(self.curriculum.stages) - 1
+        begin = self.curriculum.begin(last)
+        for i in range(min(samples, self.curriculum.stages[last].samples)):
+            counts += np.bincount(dataset[begin + i]["label"].numpy().ravel(), minlength=3)
+        return list(counts / counts.sum())
 
-class ResumableSampler(Sampler[int]):
-    """Consecutive sample numbers from ``first`` on; each process of a distributed run takes its share of every step."""
+    def pictures(self, count: int, size: int = 0) -> torch.Tensor:
+        """(N, 3, S, S) uint8, network inputs of scenes spread over the last stage; S is ``size`` or the stage's."""
+        dataset, last = self.dataset(), len(self.curriculum.stages) - 1
+        begin, stage = self.curriculum.begin(last), self.curriculum.stages[last]
+        encoder = lrrt.Encoder(size=size or stage.size, marker_side=MARKER_SIDE)
+        scenes = (dataset.scene(begin + i * stage.samples // count) for i in range(count))
+        return torch.stack([encoded(encoder, scene)["image"] for scene in scenes])
 
-    def __init__(self, first: int, batches: int, batch_size: int, rank: int = 0, processes: int = 1) -> None:
-        self.first, self.batches, self.batch_size = first, batches, batch_size
-        self.rank, self.processes = rank, processes
+    def state_dict(self) -> dict[str, Any]:
+        return {"first": self.first}
 
-    def __len__(self) -> int:
-        return self.batches * self.batch_size
-
-    def __iter__(self) -> Iterator[int]:
-        for batch in range(self.batches):
-            start = self.first + (batch * self.processes + self.rank) * self.batch_size
-            yield from range(start, start + self.batch_size)
-
-
-def class_frequencies(dataset: MazeDataset, samples: int = 200) -> list[float]:
-    """Shares of the pixels of the three classes over the first samples."""
-    counts = np.zeros(3)
-    for i in range(min(samples, len(dataset))):
-        counts += np.bincount(dataset[i]["label"].numpy().ravel(), minlength=3)
-    return list(counts / counts.sum())
+    def load_state_dict(self, state: dict[str, Any]) -> None:
+        self.first = int(state["first"])

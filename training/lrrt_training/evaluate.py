@@ -1,90 +1,96 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scores of an exported model on held-out mazes, and where they are shown: manifest, card table, contact sheet."""
+"""Scores of an exported model on held-out maps, and where they are shown: manifest, card table, contact sheet.
+
+Models are run as users run them: by the library, from the map to the region in map pixels.
+"""
 
 from __future__ import annotations
 
 import hashlib
 import json
 import os
+import zlib
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import onnx
-import onnxruntime
 import torch
 from matplotlib.figure import Figure
 from rich.progress import track
 from rich.table import Table
 
-from .data import MazeDataset
-from .metrics import RegionMetrics, accuracy, redundancy
-from .store import MazeStore
+import lrrt
 
-Scores = dict[int | str, dict[str, float]]
+from .export import properties_of, save_onnx
+from .metrics import OBSTACLE, PROMISING, RegionMetrics, accuracy, redundancy
+from .scenes import Scene
+from .store import SPLITS
+
+Groups = dict[str, Callable[..., Scene]]
+Scores = dict[str, dict[str, float]]
 CARD_BEGIN, CARD_END = "<!-- scores: written by the evaluate command -->", "<!-- end of scores -->"
 
 
-class OnnxModel:
-    """An exported model in ONNX Runtime, fed with training samples."""
-
-    def __init__(self, path: Path, threads: int = 2) -> None:
-        options = onnxruntime.SessionOptions()
-        options.intra_op_num_threads = threads
-        options.add_session_config_entry("session.intra_op.allow_spinning", "0")
-        self.path = path
-        self.session = onnxruntime.InferenceSession(str(path), options, providers=["CPUExecutionProvider"])
-        self.properties = dict(self.session.get_modelmeta().custom_metadata_map)
-        self.size = int(self.properties["input_size"])
-        self.promising = self.properties["classes"].split(",").index("promising")
-        self.threshold = float(self.properties["threshold"])
-
-    def probability(self, image: torch.Tensor) -> np.ndarray:
-        """(3, S, S) uint8 → (S, S) float32, probability of the promising class."""
-        (scores,) = self.session.run(["probability"], {"image": image.numpy()[None]})
-        return scores[0, self.promising]
+def scene_of(groups: Groups, group: str, number: int, split: str) -> Scene:
+    """Scene ``number`` of a group; it hangs on group, number and split alone."""
+    rng = np.random.default_rng([7, SPLITS.index(split), zlib.crc32(group.encode()), number])
+    return groups[group](rng, number)
 
 
-def evaluate(model: OnnxModel, store: MazeStore, levels: list[int], mazes: int, split: str = "test") -> Scores:
-    """Scores on ``mazes`` different mazes of each level, half of them drawn with one map pixel a block."""
-    dataset = MazeDataset(store, split, levels, model.size, mazes * len(levels), in_turn=True)
-    metrics = RegionMetrics(levels)
-    for i in track(range(len(dataset)), description=f"{model.path.name}: {len(levels)} levels × {mazes} mazes"):
-        sample = dataset[i]
-        region = torch.from_numpy(model.probability(sample["image"]) >= model.threshold)
-        metrics.update(region[None], sample["label"][None], sample["ends"][None], torch.tensor([sample["level"]]))
+class Judged:
+    """One prediction beside the truth, both in map pixels."""
+
+    def __init__(self, predictor: lrrt.RegionPredictor, size: int, scene: Scene) -> None:
+        grid = scene.occupancy_map()
+        scale = lrrt.Encoder(size=size).encode(grid, scene.start, scene.goal).scale
+        self.scene = scene
+        self.region = predictor.predict(grid, scene.start, scene.goal)
+        self.label = scene.label(scale)
+
+
+def evaluate(predictor: lrrt.OnnxPredictor, groups: Groups, maps: int, split: str = "test") -> Scores:
+    """Scores on ``maps`` scenes of each group."""
+    metrics = RegionMetrics(list(groups))
+    jobs = [(group, number) for group in groups for number in range(maps)]
+    for group, number in track(jobs, description=f"{predictor.info.name}: {len(groups)} groups × {maps} maps"):
+        judged = Judged(predictor, predictor.info.input_size, scene_of(groups, group, number, split))
+        region, label = torch.from_numpy(judged.region.mask.copy()), torch.from_numpy(judged.label)
+        metrics.update(region[None], label[None], [group], [judged.region.connected])
     return metrics.compute()
 
 
 def metric_by_threshold(
-    model: OnnxModel, store: MazeStore, levels: list[int], mazes: int, thresholds: list[float]
-) -> list[float]:
-    """The paper's metric on the evaluation split for each threshold, mean over maps; lower is better."""
-    dataset = MazeDataset(store, "evaluation", levels, model.size, mazes * len(levels), in_turn=True)
-    sums = np.zeros(len(thresholds))
-    for i in track(range(len(dataset)), description=f"{model.path.name}: {len(thresholds)} thresholds"):
-        sample = dataset[i]
-        probability = model.probability(sample["image"])
-        regions = torch.from_numpy(np.stack([probability >= t for t in thresholds]))
-        labels = sample["label"].expand(len(thresholds), -1, -1)
-        sums += (1 - accuracy(regions, labels) + redundancy(regions, labels)).numpy()
-    return [float(value) for value in sums / len(dataset)]
+    predictor: lrrt.OnnxPredictor, groups: Groups, maps: int, thresholds: list[float]
+) -> list[tuple[float, float]]:
+    """The paper's metric and the connectivity on the evaluation split for each threshold, means over the maps."""
+    sums = np.zeros((len(thresholds), 2))
+    jobs = [(group, number) for group in groups for number in range(maps)]
+    for group, number in track(jobs, description=f"{predictor.info.name}: {len(thresholds)} thresholds"):
+        judged = Judged(predictor, predictor.info.input_size, scene_of(groups, group, number, "evaluation"))
+        free = judged.label != OBSTACLE
+        regions = torch.from_numpy(np.stack([(judged.region.probability >= t) & free for t in thresholds]))
+        labels = torch.from_numpy(judged.label).expand(len(thresholds), -1, -1)
+        sums[:, 0] += (1 - accuracy(regions, labels) + redundancy(regions, labels)).numpy()
+        grid = judged.scene.occupancy_map()
+        for k, t in enumerate(thresholds):
+            again = lrrt.PromisingRegion.from_array(
+                grid, judged.region.probability, judged.scene.start, judged.scene.goal, threshold=t
+            )
+            sums[k, 1] += again.connected
+    return [(float(m), float(c)) for m, c in sums / len(jobs)]
 
 
 def write_threshold(path: Path, threshold: float) -> None:
     """Sets the threshold in a model's metadata; the file is replaced as a whole."""
-    graph = onnx.load(path)
-    properties = {entry.key: entry.value for entry in graph.metadata_props}
-    onnx.helper.set_model_props(graph, {**properties, "threshold": f"{threshold:g}"})
-    temporary = path.with_name(f".{path.name}.part")
-    onnx.save(graph, temporary)
-    os.replace(temporary, path)
+    save_onnx(onnx.load(path), path, {**properties_of(path), "threshold": f"{threshold:g}"})
 
 
 def rich_table(title: str, scores: Scores) -> Table:
     """Scores for the terminal."""
     table = Table(title=title)
-    for column in ("blocks", "accuracy", "redundancy", "metric", "connected", "mazes"):
+    for column in ("maps", "accuracy", "redundancy", "metric", "connected", "count"):
         table.add_column(column, justify="right")
     for level, row in scores.items():
         if level == "all":
@@ -95,7 +101,7 @@ def rich_table(title: str, scores: Scores) -> Table:
 
 def markdown_table(scores: Scores) -> str:
     """Scores for the model card."""
-    lines = ["| blocks | accuracy | redundancy | metric | connected | mazes |", "|---:|---:|---:|---:|---:|---:|"]
+    lines = ["| maps | accuracy | redundancy | metric | connected | count |", "|---:|---:|---:|---:|---:|---:|"]
     lines += [f"| {level} | {' | '.join(_cells(row))} |" for level, row in scores.items()]
     return "\n".join(lines)
 
@@ -111,53 +117,70 @@ def _write(path: Path, text: str) -> None:
     os.replace(temporary, path)
 
 
-def write_manifest(folder: Path, model: OnnxModel, scores: Scores, split: str) -> None:
+def write_manifest(folder: Path, path: Path, scores: Scores, split: str) -> None:
     """Enters a model into ``folder``/manifest.json: hash, size, what the file says of itself, scores."""
-    path = folder / "manifest.json"
-    manifest: dict[str, Any] = json.loads(path.read_text()) if path.exists() else {"models": {}}
-    content = model.path.read_bytes()
-    manifest["models"][model.path.name] = {
+    manifest_path = folder / "manifest.json"
+    manifest: dict[str, Any] = json.loads(manifest_path.read_text()) if manifest_path.exists() else {"models": {}}
+    content, properties = path.read_bytes(), properties_of(path)
+    kept = ("name", "input_size", "threshold", "training_data", "training_budget", "training_config", "commit")
+    manifest["models"][path.name] = {
         "sha256": hashlib.sha256(content).hexdigest(),
         "bytes": len(content),
-        **{key: model.properties[key] for key in ("name", "input_size", "training_data", "training_budget", "commit")},
-        "parameters": int(sum(np.prod(t.dims) for t in onnx.load(model.path).graph.initializer)),
+        **{key: properties[key] for key in kept if key in properties},
         "split": split,
-        "scores": {str(level): row for level, row in scores.items()},
+        "scores": {group: {k: round(v, 4) for k, v in row.items()} for group, row in scores.items()},
     }
-    _write(path, json.dumps(manifest, indent=1) + "\n")
+    _write(manifest_path, json.dumps(manifest, indent=1) + "\n")
+
+
+def check_card(card: Path) -> tuple[str, str]:
+    """What stands before and after the table of a model card.
+
+    Raises:
+        ValueError: there is no card, or it lacks the marks around the table.
+    """
+    head, begin, rest = card.read_text().partition(CARD_BEGIN) if card.exists() else ("", "", "")
+    _, end, tail = rest.partition(CARD_END)
+    if not (begin and end):
+        raise ValueError(f"{card}: expected the lines '{CARD_BEGIN}' and '{CARD_END}' around the table")
+    return head, tail
 
 
 def write_card_table(card: Path, scores: Scores) -> None:
     """Replaces the table between the two marks of a model card.
 
     Raises:
-        ValueError: the card lacks the marks.
+        ValueError: see check_card().
     """
-    head, begin, rest = card.read_text().partition(CARD_BEGIN)
-    _, end, tail = rest.partition(CARD_END)
-    if not (begin and end):
-        raise ValueError(f"{card}: expected the lines '{CARD_BEGIN}' and '{CARD_END}' around the table")
+    head, tail = check_card(card)
     _write(card, f"{head}{CARD_BEGIN}\n{markdown_table(scores)}\n{CARD_END}{tail}")
 
 
-def contact_sheet(model: OnnxModel, store: MazeStore, levels: list[int], path: Path, columns: int = 4) -> None:
-    """Predictions on test mazes as one picture: a row per level; colours show what was found, missed and too much."""
-    dataset = MazeDataset(store, "test", levels, model.size, columns * len(levels), in_turn=True)
-    figure = Figure(figsize=(2.6 * columns, 2.75 * len(levels)), layout="constrained")
-    axes = figure.subplots(len(levels), columns, squeeze=False)
-    for i in range(len(dataset)):
-        sample = dataset[i]
-        region = model.probability(sample["image"]) >= model.threshold
-        picture = sample["image"].numpy().transpose(1, 2, 0).copy()
-        truth, free = sample["label"].numpy() == 2, sample["label"].numpy() != 1
-        plain = free & (sample["ends"].numpy() == 0)
-        picture[plain & region & truth] = (60, 180, 75)
-        picture[plain & region & ~truth] = (255, 200, 60)
-        picture[plain & ~region & truth] = (230, 50, 160)
-        ax = axes[i % len(levels)][i // len(levels)]
-        ax.imshow(picture, interpolation="nearest")
-        ax.set_axis_off()
-        if i // len(levels) == 0:
-            ax.set_title(f"{sample['level']} blocks", loc="left", fontsize=9)
+def contact_sheet(
+    predictor: lrrt.OnnxPredictor, groups: Groups, path: Path, columns: int = 6, split: str = "test"
+) -> None:
+    """Predictions as one picture: a row per group; colours show what was found, missed and too much."""
+    figure = Figure(figsize=(2.2 * columns, 2.35 * len(groups)), layout="constrained")
+    axes = figure.subplots(len(groups), columns, squeeze=False)
+    for row, group in zip(axes, groups):
+        for number, ax in enumerate(row):
+            judged = Judged(predictor, predictor.info.input_size, scene_of(groups, group, number, split))
+            ax.imshow(verdict_picture(judged), interpolation="nearest")
+            ax.plot(*judged.scene.start, "o", color="red", markersize=4, markeredgecolor="white", markeredgewidth=0.6)
+            ax.plot(*judged.scene.goal, "o", color="blue", markersize=4, markeredgecolor="white", markeredgewidth=0.6)
+            ax.set_axis_off()
+            joined = "joined" if judged.region.connected else "broken"
+            ax.set_title(f"{group}: {joined}" if number == 0 else joined, loc="left", fontsize=8)
     figure.suptitle("green: path found   magenta: path missed   yellow: more than the path", fontsize=10)
-    figure.savefig(path, dpi=110)
+    figure.savefig(path, dpi=90)
+
+
+def verdict_picture(judged: Judged) -> np.ndarray:
+    """(H, W, 3) uint8: green where the region holds the path, magenta where it misses it, yellow where it is more."""
+    truth, free = judged.label == PROMISING, judged.label != OBSTACLE
+    mask = judged.region.mask
+    picture = np.where(free, 255, 0).astype(np.uint8)[..., None].repeat(3, axis=2)
+    picture[free & mask & truth] = (60, 180, 75)
+    picture[free & mask & ~truth] = (255, 200, 60)
+    picture[free & ~mask & truth] = (230, 50, 160)
+    return picture

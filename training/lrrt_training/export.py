@@ -1,25 +1,33 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Exports a trained network to ONNX, with the metadata that the library checks, and compares the two."""
+"""Exports a trained network to ONNX (fp32 and int8) and TorchScript, with the metadata that the library checks, and
+compares the files with PyTorch."""
 
 from __future__ import annotations
 
+import contextlib
 import json
+import logging
 import os
 import subprocess
+import tempfile
+import warnings
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import onnx
 import onnxruntime
 import torch
+from onnxruntime import quantization
+from onnxruntime.quantization import shape_inference
 from torch import Tensor, nn
 
 from .data import MARKER_SIDE
-from .network import PaperNetwork
+from .module import probabilities
 
 OPSET, IR_VERSION = 17, 8  #: what every ONNX Runtime from 1.21 on loads
 FORMAT = "1"  #: layout of the metadata
-CLASSES = {3: ("free", "obstacle", "promising"), 2: ("other", "promising")}
+CLASSES = {3: ("free", "obstacle", "promising"), 2: ("other", "promising"), 1: ("promising",)}
 COLOURS = {
     "start": [255, 0, 0],
     "goal": [0, 0, 255],
@@ -27,16 +35,22 @@ COLOURS = {
     "obstacle": [0, 0, 0],
     "promising": [0, 255, 0],
 }
-TOLERANCE = 1e-4  #: largest difference of a probability between PyTorch and ONNX Runtime
+TOLERANCE = 1e-4  #: largest difference of a probability between PyTorch and an fp32 export
+METADATA_FILE = "metadata.json"  #: where a TorchScript archive keeps its metadata
+QUANTIZED = ["Conv", "Add", "Concat", "Resize", "Relu", "DepthToSpace"]
 
 
-class _WithSoftmax(nn.Module):
+class _WithProbability(nn.Module):
     def __init__(self, network: nn.Module) -> None:
         super().__init__()
         self.network = network
 
     def forward(self, image: Tensor) -> Tensor:
-        return self.network(image).softmax(dim=1)
+        return probabilities(self.network(image))
+
+
+def _ready(network: nn.Module) -> nn.Module:
+    return _WithProbability(network).eval().to(memory_format=torch.contiguous_format)
 
 
 def commit() -> str:
@@ -55,7 +69,9 @@ def commit() -> str:
     return run.stdout.strip()
 
 
-def metadata(name: str, size: int, classes: int, training_data: str, training_budget: str) -> dict[str, str]:
+def metadata(
+    name: str, size: int, classes: int, training_data: str, training_budget: str, training_config: str = ""
+) -> dict[str, str]:
     """What the library reads from the file."""
     return {
         "lrrt_format": FORMAT,
@@ -67,37 +83,124 @@ def metadata(name: str, size: int, classes: int, training_data: str, training_bu
         "threshold": "0.5",
         "training_data": training_data,
         "training_budget": training_budget,
+        "training_config": training_config,
         "commit": commit(),
     }
 
 
-def export_onnx(network: PaperNetwork, path: Path, size: int, properties: dict[str, str]) -> None:
-    """Writes the network with softmax and metadata; the file appears only when it is complete."""
-    model = _WithSoftmax(network).eval().to(memory_format=torch.contiguous_format)
-    temporary = path.with_suffix(".part")
-    with torch.inference_mode():
+def properties_of(path: Path) -> dict[str, str]:
+    """The metadata of an ONNX file."""
+    return {entry.key: entry.value for entry in onnx.load(path).metadata_props}
+
+
+def save_onnx(graph: onnx.ModelProto, path: Path, properties: dict[str, str]) -> None:
+    """Writes a graph with metadata; the file appears only when it is complete."""
+    graph.ir_version = IR_VERSION
+    onnx.helper.set_model_props(graph, properties)
+    onnx.checker.check_model(graph)
+    temporary = path.with_name(f".{path.name}.part")
+    onnx.save(graph, temporary)
+    os.replace(temporary, path)
+
+
+def export_onnx(network: nn.Module, path: Path, size: int, properties: dict[str, str]) -> None:
+    """Writes the network in fp32 with its probabilities as output."""
+    with tempfile.TemporaryDirectory() as folder, torch.inference_mode():
+        plain = Path(folder) / "plain.onnx"
         torch.onnx.export(
-            model,
+            _ready(network),
             (torch.zeros(1, 3, size, size, dtype=torch.uint8),),
-            str(temporary),
+            str(plain),
             opset_version=OPSET,
             input_names=["image"],
             output_names=["probability"],
             dynamic_axes={"image": {0: "batch"}, "probability": {0: "batch"}},
             dynamo=False,
         )
-    graph = onnx.load(temporary)
-    graph.ir_version = IR_VERSION
-    onnx.helper.set_model_props(graph, properties)
-    onnx.checker.check_model(graph)
-    onnx.save(graph, temporary)
+        save_onnx(onnx.load(plain), path, properties)
+
+
+class _Images(quantization.CalibrationDataReader):
+    """Pictures for the calibration, one by one."""
+
+    def __init__(self, images: Tensor) -> None:
+        self._images: Iterator[Tensor] = iter(images)
+
+    def get_next(self) -> dict[str, np.ndarray] | None:
+        image = next(self._images, None)
+        return None if image is None else {"image": image.numpy()[None]}
+
+
+@contextlib.contextmanager
+def _quiet() -> Iterator[None]:
+    """Without the warnings of the quantizer, which names every node that it leaves alone."""
+    before = logging.getLogger().level
+    logging.getLogger().setLevel(logging.ERROR)
+    try:
+        yield
+    finally:
+        logging.getLogger().setLevel(before)
+
+
+def export_int8(fp32: Path, path: Path, images: Tensor, threshold: float | None = None) -> None:
+    """Quantizes an fp32 export: static, per channel, weights int8 and activations uint8 (QDQ).
+
+    Args:
+        fp32: file of ``export_onnx``; its metadata are kept.
+        path: file to write.
+        images: (N, 3, S, S) uint8, training pictures that show the range of the activations.
+        threshold: threshold for the metadata, where it shall not be that of the fp32 file.
+    """
+    properties = properties_of(fp32)
+    if threshold is not None:
+        properties["threshold"] = f"{threshold:g}"
+    with tempfile.TemporaryDirectory() as folder, _quiet(), warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        prepared, quantized = Path(folder) / "prepared.onnx", Path(folder) / "quantized.onnx"
+        shape_inference.quant_pre_process(str(fp32), str(prepared), skip_symbolic_shape=True)
+        quantization.quantize_static(
+            str(prepared),
+            str(quantized),
+            _Images(images),
+            quant_format=quantization.QuantFormat.QDQ,
+            per_channel=True,
+            activation_type=quantization.QuantType.QUInt8,
+            weight_type=quantization.QuantType.QInt8,
+            op_types_to_quantize=QUANTIZED,
+        )
+        save_onnx(onnx.load(quantized), path, properties)
+
+
+def export_torchscript(network: nn.Module, path: Path, size: int, properties: dict[str, str]) -> None:
+    """Writes the network as a traced TorchScript archive with its metadata inside."""
+    temporary = path.with_name(f".{path.name}.part")
+    with torch.inference_mode():
+        traced = torch.jit.trace(_ready(network), torch.zeros(1, 3, size, size, dtype=torch.uint8))
+        torch.jit.save(traced, str(temporary), _extra_files={METADATA_FILE: json.dumps(properties)})
     os.replace(temporary, path)
 
 
-def parity(network: PaperNetwork, path: Path, images: Tensor) -> float:
-    """Largest difference of any probability between the network and the file. (N, 3, S, S) uint8 → float."""
+def onnx_probabilities(path: Path, images: Tensor) -> np.ndarray:
+    """What ONNX Runtime makes of pictures: (N, 3, S, S) uint8 → (N, K, S, S)."""
     session = onnxruntime.InferenceSession(str(path), providers=["CPUExecutionProvider"])
-    (exported,) = session.run(["probability"], {"image": images.numpy()})
+    return np.concatenate([session.run(["probability"], {"image": image.numpy()[None]})[0] for image in images])
+
+
+def torchscript_probabilities(path: Path, images: Tensor) -> np.ndarray:
+    """What a TorchScript archive makes of pictures."""
+    module = torch.jit.load(str(path), map_location="cpu")
     with torch.inference_mode():
-        own = _WithSoftmax(network).eval()(images).numpy()
-    return float(np.abs(own - exported).max())
+        return np.concatenate([module(image[None]).numpy() for image in images])
+
+
+def own_probabilities(network: nn.Module, images: Tensor) -> np.ndarray:
+    """What the network itself makes of pictures."""
+    ready = _ready(network)
+    with torch.inference_mode():
+        return np.concatenate([ready(image[None]).numpy() for image in images])
+
+
+def parity(network: nn.Module, path: Path, images: Tensor) -> float:
+    """Largest difference of any probability between the network and an exported file. (N, 3, S, S) uint8 → float."""
+    exported = torchscript_probabilities if path.suffix == ".pt" else onnx_probabilities
+    return float(np.abs(own_probabilities(network, images) - exported(path, images)).max())

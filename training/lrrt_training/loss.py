@@ -24,11 +24,15 @@ class FocalLoss(nn.Module):
         self.register_buffer("weights", torch.tensor(class_weights, dtype=torch.float32))
 
     def forward(self, scores: Tensor, target: Tensor) -> Tensor:
-        """Scores (N, K, H, W) and class numbers (N, H, W), int64 → scalar."""
-        log_p = functional.log_softmax(scores.float(), dim=1)
-        log_p = log_p.gather(1, target.unsqueeze(1)).squeeze(1)
-        focus = (1 - log_p.exp()).clamp(min=0) ** self.gamma
-        return -(self.weights[target] * focus * log_p).mean()
+        """Scores (N, K, H, W) and class numbers (N, H, W), int64 → scalar. A single class is promising or not."""
+        scores = scores.float()
+        if scores.shape[1] == 1:
+            signed = torch.where(target.unsqueeze(1) == 1, scores, -scores)
+            log_p = functional.logsigmoid(signed).squeeze(1)
+        else:
+            log_p = functional.log_softmax(scores, dim=1).gather(1, target.unsqueeze(1)).squeeze(1)
+        loss = -self.weights[target] * log_p
+        return ((1 - log_p.exp()).clamp(min=0) ** self.gamma * loss).mean() if self.gamma > 0 else loss.mean()
 
 
 def balancing_weights(frequencies: list[float]) -> list[float]:

@@ -42,24 +42,22 @@ def is_connected(region: np.ndarray, label: np.ndarray, ends: np.ndarray) -> boo
 
 
 class RegionMetrics(Metric):
-    """Mean accuracy, redundancy, metric = (1 − accuracy) + redundancy and connectivity, for every level and over all.
+    """Mean accuracy, redundancy, metric = (1 − accuracy) + redundancy and connectivity, for every group and over all.
 
-    ``compute`` returns {level: {name: value, "count": n}} with the key ``"all"`` for the mean over all maps.
+    A group is a maze level or a family of maps. ``compute`` returns {group: {name: value, "count": n}} with the key
+    ``"all"`` for the mean over all maps.
     """
 
     full_state_update = False
     sums: Tensor
 
-    def __init__(self, levels: list[int]) -> None:
+    def __init__(self, groups: list[str]) -> None:
         super().__init__()
-        self.levels = sorted(levels)
-        self.add_state("sums", torch.zeros(len(levels), 4, dtype=torch.float64), dist_reduce_fx="sum")
+        self.groups = list(groups)
+        self.add_state("sums", torch.zeros(len(groups), 4, dtype=torch.float64), dist_reduce_fx="sum")
 
-    def update(self, region: Tensor, label: Tensor, ends: Tensor, level: Tensor) -> None:
-        """Adds maps: (N, H, W) bool region, (N, H, W) label and ends, (N,) levels."""
-        connected = [
-            is_connected(*picture) for picture in zip(region.cpu().numpy(), label.cpu().numpy(), ends.cpu().numpy())
-        ]
+    def update(self, region: Tensor, label: Tensor, groups: list[str], connected: list[bool]) -> None:
+        """Adds maps: (N, H, W) bool region and label, N names of groups, N times whether start and goal are joined."""
         rows = torch.stack(
             (
                 accuracy(region, label).double(),
@@ -69,15 +67,12 @@ class RegionMetrics(Metric):
             ),
             dim=1,
         )
-        index = torch.tensor([self.levels.index(int(v)) for v in level], device=rows.device)
+        index = torch.tensor([self.groups.index(group) for group in groups], device=rows.device)
         self.sums.index_add_(0, index, rows.to(self.sums.dtype))
 
-    def compute(self) -> dict[int | str, dict[str, float]]:
-        """The means; levels without a map are left out."""
-        result: dict[int | str, dict[str, float]] = {}
-        for level, row in zip(self.levels, self.sums):
-            if row[3] > 0:
-                result[level] = _means(row)
+    def compute(self) -> dict[str, dict[str, float]]:
+        """The means; groups without a map are left out."""
+        result = {group: _means(row) for group, row in zip(self.groups, self.sums) if row[3] > 0}
         result["all"] = _means(self.sums.sum(dim=0))
         return result
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 import torch
-from helpers import tiny_config
+from helpers import write_config
 
 from lrrt_training import store as store_module
 from lrrt_training.store import MazeStore
@@ -50,11 +50,14 @@ def perfect_store(tmp_path_factory, few_mazes) -> MazeStore:
 
 @pytest.fixture(scope="session")
 def trained(tmp_path_factory, store) -> Path:
-    """Folder of a run of two short stages that nothing interrupted."""
+    """Folder of a run of two short stages that nothing interrupted; a process of its own makes the samples."""
     from lrrt_training.train import train
 
-    config = tiny_config(tmp_path_factory.mktemp("runs"), store.folder, workers=1)
-    return train(config).parent
+    folder = tmp_path_factory.mktemp("trained")
+    config = write_config(folder, store.folder, {"data.workers": 1})
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        return folder / train(["--config", str(config)])
 
 
 @pytest.fixture

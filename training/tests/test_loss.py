@@ -84,6 +84,39 @@ def test_balancing_weights_give_every_class_the_same_say():
     assert balancing_weights([50, 40, 10]) == pytest.approx(weights), "counts do as well as shares"
 
 
+@pytest.mark.parametrize("scale", [1.0, 8.0])
+def test_a_single_class_without_focus_is_binary_cross_entropy(scale):
+    torch.manual_seed(2)
+    scores, target = scale * torch.randn(2, 1, 5, 7), torch.randint(0, 2, (2, 5, 7))
+    expected = functional.binary_cross_entropy_with_logits(scores[:, 0], target.float())
+    assert float(FocalLoss([1.0, 1.0], gamma=0.0)(scores, target)) == pytest.approx(float(expected), rel=1e-5)
+
+
+@pytest.mark.parametrize("gamma", [0.0, 0.5, 2.0])
+def test_a_single_class_by_the_formula(gamma):
+    """Also: it is the loss of two classes of which the first one's score is 0."""
+    torch.manual_seed(3)
+    scores, target, weights = torch.randn(2, 1, 5, 7), torch.randint(0, 2, (2, 5, 7)), [0.6, 4.0]
+    terms = []
+    for score, kind in zip(scores.flatten().tolist(), target.flatten().tolist()):
+        odds = 1 / (1 + math.exp(-score))
+        p = odds if kind == 1 else 1 - odds
+        terms.append(-weights[kind] * (1 - p) ** gamma * math.log(p))
+    loss = FocalLoss(weights, gamma)
+    assert float(loss(scores, target)) == pytest.approx(sum(terms) / len(terms), rel=1e-5)
+    both = torch.cat((torch.zeros_like(scores), scores), dim=1)
+    assert float(loss(scores, target)) == pytest.approx(float(loss(both, target)), rel=1e-5)
+
+
+def test_a_single_class_survives_extreme_scores():
+    scores = torch.tensor([-1e4, -90.0, 0.0, 90.0, 1e4]).reshape(1, 1, 1, 5).requires_grad_()
+    for kind in (0, 1):
+        loss = FocalLoss([1.0, 1.0])(scores, torch.full((1, 1, 5), kind))
+        (gradient,) = torch.autograd.grad(loss, scores)
+        assert loss.isfinite() and gradient.isfinite().all()
+        assert (gradient >= 0).all() if kind == 0 else (gradient <= 0).all()
+
+
 def test_missing_class_is_an_error():
     with pytest.raises(ValueError, match=r"\[0.6, 0.4, 0.0\]: expected positive"):
         balancing_weights([0.6, 0.4, 0.0])

@@ -96,18 +96,19 @@ def test_a_map_without_path_is_no_division_by_zero():
     assert redundancy(torch.ones(1, 2, 2, dtype=torch.bool), label).tolist() == [4.0]
 
 
-def update(metrics: RegionMetrics, *cases: tuple[int, torch.Tensor]) -> RegionMetrics:
-    levels, regions = zip(*cases)
-    number = len(cases)
-    metrics.update(torch.stack(regions), LABEL.expand(number, 5, 5), ENDS.expand(number, 5, 5), torch.tensor(levels))
+def update(metrics: RegionMetrics, *cases: tuple[str, str]) -> RegionMetrics:
+    """Adds cases, each a group and the name of a region."""
+    groups, regions = zip(*((group, CASES[name]) for group, name in cases))
+    labels = LABEL.expand(len(cases), 5, 5)
+    metrics.update(torch.stack([r[0] for r in regions]), labels, list(groups), [r[3] for r in regions])
     return metrics
 
 
-def test_means_of_every_level_and_of_all():
-    scores = update(RegionMetrics([9, 5, 7]), (5, EXACT), (5, GAP), (9, WIDE)).compute()
-    assert list(scores) == [5, 9, "all"], "a level without maps is left out"
-    assert scores[5] == {"accuracy": 0.875, "redundancy": 0.0, "metric": 0.125, "connectivity": 0.5, "count": 2}
-    assert scores[9] == {"accuracy": 1.0, "redundancy": 1.0, "metric": 1.0, "connectivity": 1.0, "count": 1}
+def test_means_of_every_group_and_of_all():
+    scores = update(RegionMetrics(["9", "5", "rooms"]), ("5", "exact"), ("5", "gap"), ("9", "wide")).compute()
+    assert list(scores) == ["9", "5", "all"], "in the order of the groups; one without maps is left out"
+    assert scores["5"] == {"accuracy": 0.875, "redundancy": 0.0, "metric": 0.125, "connectivity": 0.5, "count": 2}
+    assert scores["9"] == {"accuracy": 1.0, "redundancy": 1.0, "metric": 1.0, "connectivity": 1.0, "count": 1}
     assert scores["all"]["accuracy"] == pytest.approx(2.75 / 3)
     assert scores["all"]["redundancy"] == pytest.approx(1 / 3)
     assert scores["all"]["metric"] == pytest.approx(0.25 / 3 + 1 / 3)
@@ -117,15 +118,20 @@ def test_means_of_every_level_and_of_all():
 
 @pytest.mark.filterwarnings("ignore:The ``compute`` method")
 def test_no_map_at_all():
-    assert RegionMetrics([5]).compute() == {
+    assert RegionMetrics(["5"]).compute() == {
         "all": {"accuracy": 0.0, "redundancy": 0.0, "metric": 1.0, "connectivity": 0.0, "count": 0}
     }
 
 
+def test_a_group_without_name_is_an_error():
+    with pytest.raises(ValueError, match="'7' is not in list"):
+        update(RegionMetrics(["5"]), ("7", "exact"))
+
+
 def test_two_processes_together_count_as_one():
-    cases = [(5, EXACT), (5, GAP), (9, WIDE), (9, NOTHING), (5, WALLS)]
-    whole = update(RegionMetrics([5, 9]), *cases).compute()
-    one, two = update(RegionMetrics([5, 9]), *cases[:2]), update(RegionMetrics([5, 9]), *cases[2:])
+    cases = [("5", "exact"), ("5", "gap"), ("9", "wide"), ("9", "nothing"), ("5", "walls do not count")]
+    whole = update(RegionMetrics(["5", "9"]), *cases).compute()
+    one, two = update(RegionMetrics(["5", "9"]), *cases[:2]), update(RegionMetrics(["5", "9"]), *cases[2:])
     other = two.sums.clone()
     one.distributed_available_fn = lambda: True
     one.dist_sync_fn = lambda mine, group: [mine, other]
@@ -133,6 +139,34 @@ def test_two_processes_together_count_as_one():
 
 
 def test_reset_forgets():
-    metrics = update(RegionMetrics([5]), (5, GAP))
+    metrics = update(RegionMetrics(["5"]), ("5", "gap"))
     metrics.reset()
-    assert update(metrics, (5, EXACT)).compute()[5]["accuracy"] == 1.0
+    assert update(metrics, ("5", "exact")).compute()["5"]["accuracy"] == 1.0
+
+
+def slow_scores(region: np.ndarray, label: np.ndarray) -> tuple[float, float]:
+    """Accuracy and redundancy, pixel by pixel."""
+    path = hit = excess = 0
+    for row, column in np.ndindex(label.shape):
+        inside = bool(region[row, column])
+        if label[row, column] == 2:
+            path, hit = path + 1, hit + inside
+        elif label[row, column] == 0:
+            excess += inside
+    return hit / path, excess / path
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_against_a_slow_reference(seed):
+    rng = np.random.default_rng(seed)
+    label, region = rng.integers(0, 3, (6, 9, 11)), rng.random((6, 9, 11)) < rng.random()
+    expected = [slow_scores(*pair) for pair in zip(region, label)]
+    one, other = torch.from_numpy(region), torch.from_numpy(label)
+    assert accuracy(one, other).tolist() == pytest.approx([e[0] for e in expected])
+    assert redundancy(one, other).tolist() == pytest.approx([e[1] for e in expected])
+    metrics = RegionMetrics(["rooms", "21"])
+    metrics.update(one, other, ["rooms"] * 4 + ["21"] * 2, [True] * 3 + [False] * 3)
+    scores = metrics.compute()
+    assert scores["21"]["metric"] == pytest.approx(np.mean([1 - a + r for a, r in expected[4:]]))
+    assert scores["all"]["metric"] == pytest.approx(np.mean([1 - a + r for a, r in expected]))
+    assert [scores[g]["connectivity"] for g in ("rooms", "21", "all")] == [0.75, 0.0, 0.5]

@@ -1,77 +1,160 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Lightning module: learning rate, end of a stage, learning at all."""
+"""The Lightning module: targets, probabilities, the loss of coarse passes, class weights, learning at all."""
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import lightning
-import numpy as np
 import pytest
 import torch
-from torch.utils.data import DataLoader
+from torch import nn
+from torch.nn import functional
 
-from lrrt_training import module as module_file
-from lrrt_training.data import MazeDataset
-from lrrt_training.module import WARM_UP, RegionModule, learning_rate_factor, targets
-
-
-def test_learning_rate_rises_shortly_then_falls_to_zero():
-    progress = np.linspace(0, 1, 1001)
-    factor = np.array([learning_rate_factor(p) for p in progress])
-    top = int(factor.argmax())
-    assert 0 < factor[0] < 0.05
-    assert progress[top] == pytest.approx(WARM_UP, abs=0.005)
-    assert factor[top] == pytest.approx(1.0, abs=0.01)
-    assert (np.diff(factor[: top + 1]) > 0).all()
-    assert (np.diff(factor[top:]) < 0).all()
-    assert factor[500] == pytest.approx(0.5, abs=0.01)
-    assert factor[-1] == pytest.approx(0.0, abs=1e-12)
-    assert learning_rate_factor(1.2) == pytest.approx(0.0, abs=1e-12), "past the end it stays there"
+from lrrt_training.data import Curriculum, RegionData, SceneDataset, Stage
+from lrrt_training.fast_network import FastNetwork
+from lrrt_training.loss import FocalLoss, balancing_weights
+from lrrt_training.module import RegionModule, class_frequencies, probabilities, promising_probability, targets
+from lrrt_training.paper_network import PaperNetwork
 
 
-def test_targets_of_two_and_three_classes():
+def network_of(classes: int) -> nn.Module:
+    torch.manual_seed(1)
+    return FastNetwork(16, (24, 32)) if classes == 1 else PaperNetwork(24, classes, aspp=False)
+
+
+def attached(module: RegionModule, **trainer) -> SimpleNamespace:
+    """A module at a trainer that knows what it is told; keep it, the module holds it weakly."""
+
+    class Trainer(SimpleNamespace):
+        pass
+
+    stub = Trainer(**trainer)
+    module.trainer = stub
+    return stub
+
+
+def test_targets_of_every_number_of_classes():
     label = torch.tensor([[0, 1, 2]], dtype=torch.uint8)
     assert targets(label, 3).tolist() == [[0, 1, 2]]
-    assert targets(label, 2).tolist() == [[0, 0, 1]]
-    assert targets(label, 2).dtype == torch.int64
+    assert targets(label, 2).tolist() == targets(label, 1).tolist() == [[0, 0, 1]]
+    assert {targets(label, k).dtype for k in (1, 2, 3)} == {torch.int64}
 
 
-def test_a_stage_needs_an_end():
-    with pytest.raises(ValueError, match="give minutes or samples"):
-        RegionModule(4, 3, False, [1.0, 1.0, 1.0])
+def test_probabilities_of_every_number_of_classes():
+    scores = torch.tensor([0.0, 1.0, 2.0]).reshape(1, 3, 1, 1)
+    three, two, one = (probabilities(scores[:, 3 - k :]) for k in (3, 2, 1))
+    assert three.flatten().tolist() == pytest.approx([0.09003, 0.24473, 0.66524], abs=1e-4)
+    assert two.flatten().tolist() == pytest.approx([0.26894, 0.73106], abs=1e-4)
+    assert one.flatten().tolist() == pytest.approx([0.88080], abs=1e-4)
+    both = torch.cat((torch.zeros(1, 1, 1, 1), scores[:, 2:]), dim=1)
+    assert float(probabilities(both)[0, 1]) == pytest.approx(float(one)), "one score is that of two with a zero"
 
 
-def test_progress_is_the_share_of_time_or_samples(monkeypatch):
-    clock = [100.0]
-    monkeypatch.setattr(module_file.time, "monotonic", lambda: clock[0])
-    module = RegionModule(4, 3, False, [1.0, 1.0, 1.0], minutes=10, samples=1000)
-    module.on_train_start()
-    assert module.progress == 0.0
-    module.samples_seen = 250
-    clock[0] += 60
-    assert module.progress == pytest.approx(0.25)
-    clock[0] += 240
-    assert module.progress == pytest.approx(0.5), "whichever is farther"
+@pytest.mark.parametrize("classes", [1, 2, 3])
+def test_promising_is_the_last_class(classes):
+    scores = torch.randn(2, classes, 4, 5)
+    found = promising_probability(scores)
+    assert found.shape == (2, 4, 5)
+    assert torch.equal(found, probabilities(scores)[:, -1])
+    assert promising_probability(scores.bfloat16()).dtype == torch.float32
 
 
-def test_time_goes_on_after_a_restart(monkeypatch):
-    clock = [0.0]
-    monkeypatch.setattr(module_file.time, "monotonic", lambda: clock[0])
-    first = RegionModule(4, 3, False, [1.0, 1.0, 1.0], minutes=10)
-    first.on_train_start()
-    clock[0] = 180.0
+@pytest.mark.parametrize("classes", [1, 2, 3])
+@pytest.mark.parametrize("balance", [0.0, 0.5, 1.0])
+def test_class_weights_from_frequencies(classes, balance):
+    frequencies = [0.5, 0.4, 0.1]
+    told_apart = frequencies if classes == 3 else [0.9, 0.1]
+    assert class_frequencies(frequencies, classes) == pytest.approx(told_apart)
+    module = RegionModule(network_of(classes), balance=balance)
+    trainer = attached(module, datamodule=SimpleNamespace(class_frequencies=lambda: frequencies))
+    assert trainer and module.loss.weights.tolist() == [1.0] * len(told_apart)
+    module.on_fit_start()
+    wanted = [w**balance for w in balancing_weights(told_apart)]
+    assert module.loss.weights.tolist() == pytest.approx(wanted)
+    assert "loss.weights" in module.state_dict()
+
+
+def test_coarse_target_is_promising_where_any_pixel_is():
+    label = torch.tensor([[0, 0, 1, 1], [0, 2, 1, 0], [2, 2, 0, 1], [2, 2, 1, 1]], dtype=torch.uint8)[None]
+    scores, wanted = torch.randn(1, 1, 2, 2), torch.tensor([[[1, 0], [1, 0]]])
+    module = RegionModule(network_of(1), gamma=0.0)
+    assert float(module._coarse_loss(scores, label)) == pytest.approx(
+        float(functional.binary_cross_entropy_with_logits(scores[:, 0], wanted.float()))
+    )
+
+
+class Passes(nn.Module):
+    """Gives what it is told."""
+
+    classes = 1
+
+    def __init__(self, *scores: torch.Tensor) -> None:
+        super().__init__()
+        self.scores = nn.ParameterList(scores)
+
+    def outputs(self, image: torch.Tensor) -> list[torch.Tensor]:
+        return list(self.scores)
+
+
+@pytest.mark.parametrize("coarse", [0, 1, 3])
+def test_coarse_passes_count_with_their_mean(coarse):
+    label = torch.randint(0, 3, (2, 16, 16), dtype=torch.uint8)
+    fine, few = torch.randn(2, 1, 16, 16), [torch.randn(2, 1, 2, 2) for _ in range(coarse)]
+    module = RegionModule(Passes(*few, fine), gamma=2.0, coarse_weight=0.3)
+    trainer = attached(module, global_step=1)
+    module.log = lambda *_, **__: None
+    batch = {"image": torch.zeros(2, 3, 16, 16, dtype=torch.uint8), "label": label}
+    loss, covered = FocalLoss([1.0, 1.0], 2.0), functional.max_pool2d((label == 2).float()[:, None], 8)[:, 0].long()
+    wanted = loss(fine, (label == 2).long())
+    if few:
+        wanted = wanted + 0.3 * sum(loss(scores, covered) for scores in few) / coarse
+    assert trainer and float(module.training_step(batch, 1)) == pytest.approx(float(wanted), rel=1e-5)
+
+
+def test_all_processes_of_a_step_have_one_learning_rate():
+    """Their dropout differs; and after the step the data go on behind the samples of all of them."""
+    plan, found = Curriculum([Stage(32, 400, 4, [5])]), []
+    for rank in (0, 1, 2):
+        module = RegionModule(network_of(1))
+        data = SimpleNamespace(curriculum=plan, first=24)
+        trainer = attached(module, global_rank=rank, world_size=3, datamodule=data)
+        optimizer = SimpleNamespace(param_groups=[{}], step=lambda closure: closure())
+        module.optimizers = lambda optimizer=optimizer: optimizer
+        own = torch.arange(24 + 4 * rank, 28 + 4 * rank)
+        module.on_train_batch_start({"index": own}, 0)
+        drawn = float(torch.rand(1))
+        module.optimizer_step(0, 0, optimizer, lambda: None)
+        found.append((optimizer.param_groups[0]["lr"], trainer.datamodule.first, drawn))
+    assert {rate for rate, _, _ in found} == {plan.learning_rate_at(24)}
+    assert {first for _, first, _ in found} == {36}
+    assert len({drawn for _, _, drawn in found}) == 3
+
+
+def test_time_goes_on_after_a_restart():
+    first = RegionModule(network_of(1))
+    first.seconds = 180.0
     checkpoint: dict = {}
     first.on_save_checkpoint(checkpoint)
-    clock[0] = 5000.0
-    second = RegionModule(4, 3, False, [1.0, 1.0, 1.0], minutes=10)
+    second = RegionModule(network_of(1))
     second.on_load_checkpoint(checkpoint)
-    clock[0] = 5100.0
-    second.on_train_start()
-    assert second.seconds == pytest.approx(180), "what lies between is not training time"
-    clock[0] += 120
-    assert second.progress == pytest.approx(0.5)
+    assert second.seconds == 180.0
 
 
-class Losses(lightning.Callback):
+class TwoSamples(SceneDataset):
+    """The same two over and over."""
+
+    def scene(self, index: int):
+        return super().scene(index % 2)
+
+
+class ByHeart(RegionData):
+    def dataset(self) -> SceneDataset:
+        usual = super().dataset()
+        return TwoSamples(usual.curriculum, usual.source, usual.seed)
+
+
+class Record(lightning.Callback):
     def __init__(self) -> None:
         self.losses: list[float] = []
         self.rates: list[float] = []
@@ -81,26 +164,25 @@ class Losses(lightning.Callback):
         self.rates.append(module.optimizers().param_groups[0]["lr"])
 
 
-@pytest.mark.parametrize("classes", [3, 2])
-def test_a_small_network_learns_a_few_samples_by_heart(store, classes):
-    lightning.seed_everything(1)
-    dataset = MazeDataset(store, "train", [5, 7], size=32, length=2, pixel_share=0.0)
-    samples = [dataset[i] for i in range(2)]
-    steps, rate = {3: 40, 2: 25}[classes], 8e-3
-    record = Losses()
+@pytest.mark.parametrize("classes", [3, 2, 1])
+def test_a_small_network_learns_two_samples_by_heart(store, classes):
+    steps, rate = {3: 40, 2: 30, 1: 80}[classes], 8e-3
+    stage = Stage(32, 2 * steps, 2, [5, 7], learning_rate=rate, pixel_share=0.0)
+    data, record = ByHeart([stage], store.folder, store.folder / "absent", workers=0), Record()
     trainer = lightning.Trainer(
         accelerator="cpu",
         devices=1,
-        max_epochs=-1,
+        max_epochs=1,
         logger=False,
         callbacks=[record],
         enable_checkpointing=False,
         enable_progress_bar=False,
         enable_model_summary=False,
     )
-    weights = {3: [0.7, 0.6, 4.0], 2: [0.6, 4.0]}[classes]
-    module = RegionModule(24, classes, False, weights, learning_rate=rate, samples=2 * steps)
-    trainer.fit(module, DataLoader(samples, 2))
-    assert len(record.losses) == steps, "the stage ends by its samples"
+    module = RegionModule(network_of(classes))
+    trainer.fit(module, data)
+    assert len(record.losses) == steps
+    assert data.first == data.curriculum.samples
     assert record.losses[-1] < record.losses[0] / 5
-    assert record.rates == pytest.approx([rate * learning_rate_factor(i / steps) for i in range(steps)])
+    assert record.rates == pytest.approx([stage.learning_rate_at(i / steps) for i in range(steps)])
+    assert module.seconds > 0

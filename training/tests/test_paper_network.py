@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The network: shapes of every variant, and the parts that the paper names."""
+"""The paper's network: shapes of every variant, and the parts that the paper names."""
 
 from __future__ import annotations
 
@@ -7,13 +7,7 @@ import pytest
 import torch
 from torchvision.models import resnet18
 
-from lrrt_training.network import (
-    PaperNetwork,
-    ResidualKeepBlock,
-    ResidualUpBlock,
-    ResNet18Encoder,
-    promising_probability,
-)
+from lrrt_training.paper_network import PaperNetwork, ResidualKeepBlock, ResidualUpBlock, ResNet18Encoder
 
 PAPER_PARAMETERS = 22_886_371
 
@@ -118,7 +112,12 @@ def test_bad_settings_are_named(settings, message):
         PaperNetwork(**settings)
 
 
-def test_promising_is_the_last_class():
-    scores = torch.tensor([0.0, 1.0, 2.0]).reshape(1, 3, 1, 1)
-    assert float(promising_probability(scores)) == pytest.approx(0.66524, abs=1e-4)
-    assert float(promising_probability(scores[:, :2])) == pytest.approx(0.73106, abs=1e-4)
+@pytest.mark.parametrize("classes", [2, 3])
+def test_what_training_and_export_ask_for(classes):
+    """Both networks have classes, stride and outputs; this one has no coarse scores."""
+    network = PaperNetwork(4, classes).eval()
+    assert (network.classes, network.stride) == (classes, 32)
+    picture = image(32)
+    with torch.inference_mode():
+        (scores,) = network.outputs(picture)
+        assert torch.equal(scores, network(picture))

@@ -126,6 +126,7 @@ class PaperNetwork(nn.Module):
 
     def __init__(self, width: int = 64, classes: int = 3, aspp: bool = True) -> None:
         super().__init__()
+        self.classes = classes
         if classes not in (2, 3):
             raise ValueError(f"classes = {classes}: expected 3 (free, obstacle, promising) or 2 (other, promising)")
         if width < 2 or width % 2:
@@ -136,6 +137,7 @@ class PaperNetwork(nn.Module):
         self.context = ASPP(deepest, list(_ASPP_RATES), context) if aspp else nn.Identity()
         self.decoder = Decoder(context, tuple(skips), width // 2)
         self.classifier = nn.Conv2d(width // 2, classes, kernel_size=1)
+        self.stride = STRIDE
         self._initialise()
 
     def _initialise(self) -> None:
@@ -145,12 +147,11 @@ class PaperNetwork(nn.Module):
         nn.init.normal_(self.classifier.weight, std=0.01)
         nn.init.zeros_(self.classifier.bias)
 
+    def outputs(self, image: Tensor) -> list[Tensor]:
+        """The scores of ``forward``; this network has no coarse ones."""
+        return [self(image)]
+
     def forward(self, image: Tensor) -> Tensor:
         """(N, 3, S, S) RGB planes in 0..255, S a multiple of 32 → (N, classes, S, S) scores (logits)."""
         *skips, deepest = self.encoder(image.to(torch.float32) / 255)
         return self.classifier(self.decoder(self.context(deepest), skips))
-
-
-def promising_probability(scores: Tensor) -> Tensor:
-    """(N, K, S, S) scores → (N, S, S) probability of the promising class, which is the last one."""
-    return scores.float().softmax(dim=1)[:, -1]
