@@ -12,11 +12,19 @@ if(TARGET lrrt_io)
 endif()
 
 install(TARGETS ${lrrt_libraries} EXPORT lrrtTargets)
+set(left_out)
+if(NOT LRRT_WITH_TORCH)
+  set(left_out PATTERN "torch_*" EXCLUDE)
+endif()
 install(DIRECTORY include/lrrt "${PROJECT_BINARY_DIR}/include/lrrt" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
-  FILES_MATCHING PATTERN "*.hpp")
+  FILES_MATCHING PATTERN "*.hpp" ${left_out})
 install(FILES models/default.onnx DESTINATION "${CMAKE_INSTALL_DATADIR}/lrrt/models")
 lrrt_install_onnxruntime("${CMAKE_INSTALL_LIBDIR}" "${CMAKE_INSTALL_DATADIR}/lrrt/licenses")
 
+set(LRRT_NEEDS_TORCH OFF)
+if(LRRT_WITH_TORCH AND NOT BUILD_SHARED_LIBS)
+  set(LRRT_NEEDS_TORCH ON)
+endif()
 set(LRRT_MODEL "${CMAKE_INSTALL_DATADIR}/lrrt/models/default.onnx")
 configure_package_config_file(cmake/lrrtConfig.cmake.in "${PROJECT_BINARY_DIR}/lrrtConfig.cmake"
   INSTALL_DESTINATION "${package_dir}" PATH_VARS LRRT_MODEL)

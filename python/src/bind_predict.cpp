@@ -6,6 +6,9 @@
 #include "lrrt/predict/encoder.hpp"
 #include "lrrt/predict/onnx_predictor.hpp"
 #include "lrrt/region/picture.hpp"
+#ifdef LRRT_WITH_TORCH
+#include "lrrt/predict/torch_predictor.hpp"
+#endif
 
 namespace lrrt::python {
 namespace {
@@ -140,7 +143,7 @@ void bind_region(py::module_& module) {
 }
 
 void bind_model_info(py::module_& module) {
-  py::class_<ModelInfo>(module, "ModelInfo", "What an ONNX file says about the model in it.")
+  py::class_<ModelInfo>(module, "ModelInfo", "What a model file says about the model in it.")
       .def_property_readonly(
           "path", [](const ModelInfo& info) { return info.path; }, "The file.")
       .def_readonly("name", &ModelInfo::name, "Name of the model.")
@@ -154,7 +157,7 @@ void bind_model_info(py::module_& module) {
       .def_readonly("training_data", &ModelInfo::training_data, "What the model was trained on.")
       .def_readonly("training_budget", &ModelInfo::training_budget, "How long it was trained, on what.")
       .def_readonly("commit", &ModelInfo::commit, "Commit of the training code.")
-      .def_readonly("runtime_version", &ModelInfo::runtime_version, "Version of the ONNX Runtime in use.");
+      .def_readonly("runtime_version", &ModelInfo::runtime_version, "Version of the ONNX Runtime or libtorch in use.");
 }
 
 std::shared_ptr<OnnxPredictor> load_predictor(const std::optional<std::filesystem::path>& model, int threads,
@@ -201,6 +204,20 @@ void bind_predictors(py::module_& module) {
       .def_property_readonly("info", &OnnxPredictor::info, "What the file says about the model.");
 }
 
+#ifdef LRRT_WITH_TORCH
+void bind_torch(py::module_& module) {
+  py::class_<TorchScriptPredictor, RegionPredictor, std::shared_ptr<TorchScriptPredictor>>(
+      module, "TorchScriptPredictor", "Runs a TorchScript archive; one object serves any number of threads at once.")
+      .def(py::init([](const std::filesystem::path& model, int threads) {
+             return std::make_shared<TorchScriptPredictor>(model, TorchOptions{threads});
+           }),
+           py::arg("model"), py::arg("threads") = 0,
+           "Loads an archive. `threads`: of libtorch in this whole process, 0 leaves them alone.\n\n"
+           "Raises ModelError when the file cannot be loaded or run, or the metadata do not fit.")
+      .def_property_readonly("info", &TorchScriptPredictor::info, "What the file says about the model.");
+}
+#endif
+
 }  // namespace
 
 void bind_predict(py::module_& module) {
@@ -208,6 +225,9 @@ void bind_predict(py::module_& module) {
   bind_region(module);
   bind_model_info(module);
   bind_predictors(module);
+#ifdef LRRT_WITH_TORCH
+  bind_torch(module);
+#endif
 }
 
 }  // namespace lrrt::python

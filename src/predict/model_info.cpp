@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "lrrt/error.hpp"
+#include "lrrt/predict/onnx_predictor.hpp"
 #include "own_path.hpp"
 
 namespace lrrt {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 
-#include "lrrt/predict/onnx_predictor.hpp"
+#include "lrrt/predict/model_info.hpp"
 
 namespace lrrt {
 

@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
-#include <utility>
+#include <vector>
 
+#include "input_output.hpp"
 #include "lrrt/error.hpp"
-#include "lrrt/stopwatch.hpp"
 #include "model_info.hpp"
 #include "onnx_runtime.hpp"
 
@@ -34,12 +33,6 @@ Ort::SessionOptions session_options(const OnnxOptions& options) {
   result.SetGraphOptimizationLevel(ORT_ENABLE_ALL);
   result.AddConfigEntry("session.intra_op.allow_spinning", options.spinning ? "1" : "0");
   return result;
-}
-
-std::string shape_text(const std::vector<std::int64_t>& shape) {
-  std::string text = "[";
-  for (const std::int64_t side : shape) text += (text.size() > 1 ? ", " : "") + std::to_string(side);
-  return text + "]";
 }
 
 /// Checks one input or output against the contract; -1 stands for any batch size.
@@ -74,8 +67,8 @@ class OnnxPredictor::Session {
   /// Buffers of one call. The tensors are views of the vectors, so a workspace never moves.
   struct Workspace {
     Workspace(const ModelInfo& info, const OrtMemoryInfo* memory)
-        : image(3 * plane(info)),
-          probability(info.classes.size() * plane(info)),
+        : image(3 * plane_size(info)),
+          probability(info.classes.size() * plane_size(info)),
           input_shape{1, 3, info.input.size, info.input.size},
           output_shape{1, static_cast<std::int64_t>(info.classes.size()), info.input.size, info.input.size},
           input(Ort::Value::CreateTensor<std::uint8_t>(memory, image.data(), image.size(), input_shape.data(), 4)),
@@ -83,10 +76,6 @@ class OnnxPredictor::Session {
                                                  4)) {}
     Workspace(const Workspace&) = delete;
     Workspace& operator=(const Workspace&) = delete;
-
-    static std::size_t plane(const ModelInfo& info) {
-      return static_cast<std::size_t>(info.input.size) * static_cast<std::size_t>(info.input.size);
-    }
 
     std::vector<std::uint8_t> image;
     std::vector<float> probability;
@@ -112,19 +101,13 @@ class OnnxPredictor::Session {
   const ModelInfo& info() const { return info_; }
 
   Prediction predict(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal) {
-    std::unique_ptr<Workspace> workspace = borrow();
-    PredictTimings timings;
-    Stopwatch watch;
-    const InputFit fit = encoder_.encode(map, start, goal, workspace->image);
-    timings.encode = watch.lap_ms();
-    session_.Run(Ort::RunOptions{nullptr}, &input_name, &workspace->input, 1, &output_name, &workspace->output, 1);
-    timings.infer = watch.lap_ms();
-    const float* promising = workspace->probability.data() + info_.promising * Workspace::plane(info_);
-    PromisingRegion region(map, fit.to_map(promising), OccupancyMap::pixel_of(map.to_pixel(start)),
-                           OccupancyMap::pixel_of(map.to_pixel(goal)), info_.threshold);
-    give_back(std::move(workspace));
-    timings.region = watch.lap_ms();
-    return {std::move(region), timings};
+    std::unique_ptr<Workspace> workspace = idle_.borrow([&] { return std::make_unique<Workspace>(info_, memory_); });
+    Prediction prediction = predict_region(info_, encoder_, {map, start, goal}, workspace->image, [&] {
+      session_.Run(Ort::RunOptions{nullptr}, &input_name, &workspace->input, 1, &output_name, &workspace->output, 1);
+      return workspace->probability.data();
+    });
+    idle_.give_back(std::move(workspace));
+    return prediction;
   }
 
  private:
@@ -140,40 +123,16 @@ class OnnxPredictor::Session {
     return info;
   }
 
-  std::unique_ptr<Workspace> borrow() {
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      if (!idle_.empty()) {
-        std::unique_ptr<Workspace> workspace = std::move(idle_.back());
-        idle_.pop_back();
-        return workspace;
-      }
-    }
-    return std::make_unique<Workspace>(info_, memory_);
-  }
-
-  void give_back(std::unique_ptr<Workspace> workspace) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    idle_.push_back(std::move(workspace));
-  }
-
   Ort::Session session_;
   Ort::MemoryInfo memory_;
   ModelInfo info_;
   Encoder encoder_;
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<Workspace>> idle_;
+  Pool<Workspace> idle_;
 };
 
 OnnxPredictor::OnnxPredictor(const std::filesystem::path& model, OnnxOptions options) {
-  std::error_code ignored;  // a path that the system cannot even look up is no file either
-  if (!std::filesystem::is_regular_file(model, ignored)) {
-    throw ModelError("model " + model.string() +
-                     " does not exist or is not a file: name an ONNX file exported by the training package");
-  }
-  if (options.threads < 0 || options.threads > 1024) {
-    throw RequestError("threads is " + std::to_string(options.threads) + ": expected 0 (choose) to 1024");
-  }
+  check_model_file(model, "an ONNX file");
+  check_threads(options.threads);
   open_onnx_runtime();
   try {
     session_ = std::make_unique<Session>(model, options);

@@ -35,8 +35,14 @@ TEST(OnnxPredictor, ReadsTheMetadata) {
   EXPECT_FALSE(info.runtime_version.empty());
 }
 
+TEST(OnnxPredictor, AcceptsThePromisingClassAlone) {
+  const OnnxPredictor predictor(tiny("one_class"));
+  EXPECT_EQ(predictor.info().classes, std::vector<std::string>{"promising"});
+  EXPECT_EQ(predictor.info().promising, 0U);
+}
+
 TEST(OnnxPredictor, BringsTheNetworksOutputBackToTheMap) {
-  for (const char* name : {"green", "two_classes"}) {
+  for (const char* name : {"green", "two_classes", "one_class"}) {
     const OnnxPredictor predictor(tiny(name));
     const OccupancyMap map = hall();
     const PromisingRegion region = predictor.predict(map, {0.5, 0.5}, {15.5, 0.5}).region;

@@ -1,21 +1,26 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes the tiny ONNX files of tests/data/models: one that fits the library, and some that do not.
+"""Makes the tiny ONNX and TorchScript files of tests/data/models: some that fit the library, and some that do not.
 
-    python tests/data/make_models.py        (needs the package onnx)
+    python tests/data/make_models.py        (needs the packages onnx and torch)
 
-The good one calls a pixel promising in proportion to its green channel, so a test can tell what must come out.
+The good ones call a pixel promising in proportion to its green channel, so a test can tell what must come out.
 """
 
 from __future__ import annotations
 
+import io
 import json
+import zipfile
 from pathlib import Path
 
 import numpy as np
 import onnx
+import torch
 from onnx import TensorProto, helper, numpy_helper
+from torch import Tensor, nn
 
 SIZE = 16
+FOLDER = Path(__file__).parent / "models"
 METADATA = {
     "lrrt_format": "1",
     "name": "green",
@@ -64,17 +69,100 @@ def model(
     return helper.make_model(graph, opset_imports=[helper.make_opsetid("", 17)], ir_version=8)
 
 
+def properties(**changes: str | None) -> dict[str, str]:
+    """METADATA with changes; a change to None leaves the key out."""
+    return {key: value for key, value in {**METADATA, **changes}.items() if value is not None}
+
+
 def save(name: str, made: onnx.ModelProto, **changes: str | None) -> None:
-    """Writes a file with METADATA; a change to None leaves the key out."""
-    properties = {key: value for key, value in {**METADATA, **changes}.items() if value is not None}
-    helper.set_model_props(made, properties)
-    onnx.save(made, Path(__file__).parent / "models" / f"{name}.onnx")
+    """Writes an ONNX file."""
+    helper.set_model_props(made, properties(**changes))
+    onnx.save(made, FOLDER / f"{name}.onnx")
+
+
+class Green(nn.Module):
+    """What ``model`` computes."""
+
+    def __init__(self, classes: int = 3, bias: float = 0.0) -> None:
+        super().__init__()
+        self.copy = nn.Conv2d(3, classes, 1)
+        nn.init.zeros_(self.copy.weight)
+        nn.init.constant_(self.copy.weight[-1, 1], 1.0)
+        nn.init.constant_(self.copy.bias, bias)
+
+    def forward(self, image: Tensor) -> Tensor:
+        return self.copy(image.float() / 255.0)
+
+
+class Halved(Green):
+    """An output of half the size."""
+
+    def forward(self, image: Tensor) -> Tensor:
+        return super().forward(image)[:, :, ::2, ::2]
+
+
+class Doubled(Green):
+    """An output in double precision."""
+
+    def forward(self, image: Tensor) -> Tensor:
+        return super().forward(image).double()
+
+
+class Paired(Green):
+    """Two outputs."""
+
+    def forward(self, image: Tensor) -> tuple[Tensor, Tensor]:
+        return super().forward(image), image
+
+
+class Masked(Green):
+    """Two inputs."""
+
+    def forward(self, image: Tensor, mask: Tensor) -> Tensor:
+        return super().forward(image * mask)
+
+
+class FixedSize(Green):
+    """Runs with pictures of one size only."""
+
+    def forward(self, image: Tensor) -> Tensor:
+        return super().forward(image + torch.zeros(1, 3, SIZE, SIZE, dtype=torch.uint8))
+
+
+def save_script(name: str, module: nn.Module, metadata: str | None = None, inputs: int = 1) -> None:
+    """Writes a TorchScript archive without its debug records: they are large, and name the folders of this machine."""
+    traced = torch.jit.trace(module.eval(), (torch.zeros(1, 3, SIZE, SIZE, dtype=torch.uint8),) * inputs)
+    whole = io.BytesIO()
+    torch.jit.save(traced, whole, _extra_files={} if metadata is None else {"metadata.json": metadata})
+    with zipfile.ZipFile(whole) as source, zipfile.ZipFile(FOLDER / f"{name}.pt", "w") as target:
+        for record in source.namelist():
+            if not record.endswith(".debug_pkl"):
+                target.writestr(zipfile.ZipInfo(record), source.read(record))
+
+
+def make_scripts() -> None:
+    metadata = json.dumps(properties())
+    save_script("green", Green(), metadata)
+    save_script("one_class", Green(classes=1), json.dumps(properties(classes="promising")))
+    save_script("nan", Green(bias=float("nan")), metadata)
+    save_script("no_metadata", Green())
+    save_script("broken_metadata", Green(), "this is no JSON")
+    save_script("number_size", Green(), json.dumps({**METADATA, "input_size": SIZE}))
+    save_script("no_size", Green(), json.dumps(properties(input_size=None)))
+    save_script("wrong_size", FixedSize(), json.dumps(properties(input_size="32")))
+    save_script("wrong_classes", Green(), json.dumps(properties(classes="free,obstacle,wall,promising")))
+    save_script("half_output", Halved(), metadata)
+    save_script("double_output", Doubled(), metadata)
+    save_script("two_outputs", Paired(), metadata)
+    save_script("two_inputs", Masked(), metadata, inputs=2)
 
 
 def main() -> None:
-    (Path(__file__).parent / "models").mkdir(exist_ok=True)
+    FOLDER.mkdir(exist_ok=True)
+    make_scripts()
     save("green", model())
     save("two_classes", model(classes=2), classes="other,promising")
+    save("one_class", model(classes=1), classes="promising")
     save("nan", model(bias=float("nan")))
     save("float_input", model(element=TensorProto.FLOAT))
     save("other_output", model(output="scores"))

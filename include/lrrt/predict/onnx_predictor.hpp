@@ -3,27 +3,11 @@
 
 #include <filesystem>
 #include <memory>
-#include <string>
-#include <vector>
 
-#include "lrrt/predict/encoder.hpp"
+#include "lrrt/predict/model_info.hpp"
 #include "lrrt/predict/region_predictor.hpp"
 
 namespace lrrt {
-
-/// What an ONNX file says about the model in it; written by the training package's export.
-struct ModelInfo {
-  std::filesystem::path path;
-  std::string name;
-  InputSpec input{};
-  std::vector<std::string> classes;  ///< names in output order; one of them is "promising"
-  std::size_t promising = 0;         ///< index of the promising class
-  float threshold = 0.5F;            ///< a pixel is promising from this probability on
-  std::string training_data;
-  std::string training_budget;
-  std::string commit;           ///< of the training code
-  std::string runtime_version;  ///< of the ONNX Runtime in use
-};
 
 /// How ONNX Runtime runs the model.
 struct OnnxOptions {

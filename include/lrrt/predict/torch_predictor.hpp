@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "lrrt/predict/model_info.hpp"
+#include "lrrt/predict/region_predictor.hpp"
+
+namespace lrrt {
+
+/// How libtorch runs the model.
+struct TorchOptions {
+  /// Threads of one operation; 0: leave libtorch's setting alone. libtorch has one setting for the whole process: it
+  /// holds for every other user of libtorch too, and the last predictor that sets it wins.
+  int threads = 0;
+};
+
+/// A region predictor that runs a TorchScript archive in libtorch; there only where the library was built with
+/// LRRT_WITH_TORCH.
+///
+/// The module and the buffers of its pictures are made once and reused; any number of threads may predict with one
+/// object. An archive holds a program: load only files that you trust.
+class TorchScriptPredictor final : public RegionPredictor {
+ public:
+  /// @param model an archive (.pt) that takes one uint8 picture, 1 × 3 × S × S, returns float32 probabilities,
+  /// 1 × K × S × S, and carries the metadata of the ONNX file in its extra file "metadata.json".
+  /// @throws ModelError when the file cannot be loaded or run, or the metadata do not fit.
+  /// @throws RequestError when the number of threads is out of range.
+  explicit TorchScriptPredictor(const std::filesystem::path& model, TorchOptions options = {});
+  ~TorchScriptPredictor() override;
+  TorchScriptPredictor(TorchScriptPredictor&&) noexcept;
+  TorchScriptPredictor& operator=(TorchScriptPredictor&&) noexcept;
+
+  const ModelInfo& info() const;
+  Prediction predict(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal) const override;
+
+ private:
+  class Network;
+  std::unique_ptr<Network> network_;
+};
+
+}  // namespace lrrt

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "lrrt/predict/grid_predictors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+#include "lrrt/error.hpp"
+#include "lrrt/map/distance_field.hpp"
+#include "lrrt/map/shortest_path.hpp"
+#include "lrrt/stopwatch.hpp"
+
+namespace lrrt {
+namespace {
+
+Pixel pixel_at(const OccupancyMap& map, const Eigen::Vector2d& point, const char* name) {
+  const Pixel pixel = OccupancyMap::pixel_of(map.to_pixel(point));
+  if (map.is_free(pixel)) return pixel;
+  std::ostringstream text;
+  text << name << " (" << point.x() << ", " << point.y() << ") does not lie on a free pixel of the " << map.width()
+       << "×" << map.height() << " map: choose a free point, in map units";
+  throw RequestError(text.str());
+}
+
+void check_length(const char* name, double value) {
+  if (value >= 0.0 && std::isfinite(value)) return;
+  std::ostringstream text;
+  text << name << " of " << value << " pixels: expected a finite number, 0 or more";
+  throw RequestError(text.str());
+}
+
+std::vector<Eigen::Vector2d> centres(const std::vector<Pixel>& pixels) {
+  std::vector<Eigen::Vector2d> points;
+  points.reserve(pixels.size());
+  for (const Pixel p : pixels) points.emplace_back(p.c + 0.5, p.r + 0.5);
+  return points;
+}
+
+Prediction around(const OccupancyMap& map, const std::vector<std::vector<Eigen::Vector2d>>& ways, double radius,
+                  Pixel start, Pixel goal, PredictTimings timings) {
+  const Stopwatch watch;
+  std::vector<float> probability(map.size(), 0.0F);
+  for (const auto& way : ways) {
+    const std::vector<std::uint8_t> mask = widened(map, way, radius);
+    std::transform(mask.begin(), mask.end(), probability.begin(), probability.begin(),
+                   [](std::uint8_t in, float p) { return in != 0 ? 1.0F : p; });
+  }
+  PromisingRegion region(map, std::move(probability), start, goal);
+  timings.region = watch.total_ms();
+  return {std::move(region), timings};
+}
+
+/// Downhill over the pixels from one end until no neighbour is lower.
+std::vector<Pixel> descend(const OccupancyMap& map, const DistanceField& field, Pixel from, Pixel to, double reach) {
+  const auto potential = [&](Pixel p) {
+    const double pull = std::hypot(p.c - to.c, p.r - to.r);
+    const double lack = std::max(0.0, 1.0 - field.at(p) / std::max(reach, 1e-9));
+    return pull + reach * lack * lack;
+  };
+  std::vector<Pixel> way{from};
+  for (double lowest = potential(from);;) {
+    Pixel next = way.back();
+    for (int dr = -1; dr <= 1; ++dr) {
+      for (int dc = -1; dc <= 1; ++dc) {
+        const Pixel p{way.back().c + dc, way.back().r + dr};
+        if (!map.is_free(p) || !map.is_free({p.c, way.back().r}) || !map.is_free({way.back().c, p.r})) continue;
+        if (potential(p) < lowest) {
+          lowest = potential(p);
+          next = p;
+        }
+      }
+    }
+    if (next == way.back()) return way;
+    way.push_back(next);
+  }
+}
+
+}  // namespace
+
+Prediction GivenRegion::predict(const OccupancyMap& map, const Eigen::Vector2d& start,
+                                const Eigen::Vector2d& goal) const {
+  const Stopwatch watch;
+  PromisingRegion region(map, probability_, pixel_at(map, start, "start"), pixel_at(map, goal, "goal"), threshold_);
+  PredictTimings timings;
+  timings.region = watch.total_ms();
+  return {std::move(region), timings};
+}
+
+AStarPredictor::AStarPredictor(double radius) : radius_(radius) {
+  check_length("radius", radius);
+}
+
+Prediction AStarPredictor::predict(const OccupancyMap& map, const Eigen::Vector2d& start,
+                                   const Eigen::Vector2d& goal) const {
+  const Pixel from = pixel_at(map, start, "start");
+  const Pixel to = pixel_at(map, goal, "goal");
+  const Stopwatch watch;
+  const std::vector<Pixel> path = shortest_path(map, from, to);
+  PredictTimings timings;
+  timings.infer = watch.total_ms();
+  return around(map, {centres(path)}, radius_, from, to, timings);
+}
+
+PotentialFieldPredictor::PotentialFieldPredictor(double radius, double reach) : radius_(radius), reach_(reach) {
+  check_length("radius", radius);
+  check_length("reach", reach);
+}
+
+Prediction PotentialFieldPredictor::predict(const OccupancyMap& map, const Eigen::Vector2d& start,
+                                            const Eigen::Vector2d& goal) const {
+  const Pixel from = pixel_at(map, start, "start");
+  const Pixel to = pixel_at(map, goal, "goal");
+  const Stopwatch watch;
+  const DistanceField field(map);
+  const std::vector<Pixel> forth = descend(map, field, from, to, reach_);
+  const std::vector<Pixel> back = descend(map, field, to, from, reach_);
+  PredictTimings timings;
+  timings.infer = watch.total_ms();
+  return around(map, {centres(forth), centres(back)}, radius_, from, to, timings);
+}
+
+}  // namespace lrrt
