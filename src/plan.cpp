@@ -47,8 +47,8 @@ const char* to_string(PlanStatus status) {
 }
 
 Strategy strategy_from_string(const std::string& word) {
-  constexpr std::array<std::pair<const char*, Strategy>, 2> table = {
-      {{"uniform", Strategy::uniform}, {"region", Strategy::region}}};
+  constexpr std::array<std::pair<const char*, Strategy>, 3> table = {
+      {{"uniform", Strategy::uniform}, {"region", Strategy::region}, {"frontier", Strategy::frontier}}};
   return from_word("strategy", word, table);
 }
 

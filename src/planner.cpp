@@ -12,6 +12,7 @@
 #include "lrrt/error.hpp"
 #include "lrrt/map/components.hpp"
 #include "lrrt/map/footprint.hpp"
+#include "lrrt/ompl/guide.hpp"
 #include "lrrt/ompl/map_search.hpp"
 #include "lrrt/stopwatch.hpp"
 
@@ -32,14 +33,14 @@ void check_at_least(const char* name, double value, double least, const char* ex
   if (!(std::isfinite(value) && value >= least)) refuse(name, value, expected);
 }
 
-/// RRT and RRT-Connect end at their first path, and RRT-Connect needs no goal bias.
+/// Some planners end at their first path, and RRT-Connect needs no goal bias.
 void check_for_planner(const PlanOptions& options) {
   check_planner_name(options.planner);
-  if (options.stop != Stop::first && options.planner != "RRTstar") {
+  if (options.stop != Stop::first && !shortens_its_path(options.planner)) {
     throw RequestError("planner " + options.planner +
                        " ends at its first path: use Stop::first, or RRTstar to shorten it");
   }
-  if (options.goal_bias == 0.0 && options.goal_tolerance == 0.0 && options.planner != "RRTConnect") {
+  if (options.goal_bias == 0.0 && options.goal_tolerance == 0.0 && needs_goal_bias(options.planner)) {
     throw RequestError(
         "goal_bias and goal_tolerance are both 0: a random sample never hits the goal exactly; raise one of them");
   }
@@ -108,10 +109,13 @@ std::shared_ptr<const PromisingRegion> predict(const RegionPredictor& predictor,
   return std::make_shared<const PromisingRegion>(std::move(prediction.region));
 }
 
-MixedSampler sampler_for(const OccupancyMap& map, const PromisingRegion* region, const PlanOptions& options) {
-  std::unique_ptr<SamplingStrategy> guided;
-  if (region != nullptr && region->area() > 0) guided = std::make_unique<RegionStrategy>(*region);
-  return {std::move(guided), UniformStrategy(map.width(), map.height()), options.alpha, options.seed};
+MixedSampler sampler_for(const CollisionMap& map, const PromisingRegion* region, const PlanRequest& request,
+                         const PlanOptions& options) {
+  if (region == nullptr) {
+    return {nullptr, UniformStrategy(map.map().width(), map.map().height()), options.alpha, options.seed};
+  }
+  return make_sampler(map, *region, request.start, request.goal, growth_of(options.planner),
+                      {options.strategy, options.alpha, options.range, options.seed});
 }
 
 /// The result of a query that ends where it starts; OMPL's planners take the goal for one more state to be reached.
@@ -155,8 +159,8 @@ PlanResult Planner::plan(const PlanRequest& request) const {
   }
 
   Stopwatch search_watch;
-  MapSearch search(collision, request.start, request.goal, sampler_for(collision->map(), result.region.get(), options_),
-                   options_, request.cancel);
+  MapSearch search(collision, request.start, request.goal,
+                   sampler_for(*collision, result.region.get(), request, options_), options_, request.cancel);
   result.timings.prepare += search_watch.lap_ms();
   search.run(result);
   result.timings.total = watch.total_ms();

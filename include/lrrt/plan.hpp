@@ -12,7 +12,7 @@
 
 #include "lrrt/map/occupancy_map.hpp"
 #include "lrrt/region/promising_region.hpp"
-#include "lrrt/sampling/strategy.hpp"
+#include "lrrt/sampling/mixed_sampler.hpp"
 
 namespace lrrt {
 
@@ -34,8 +34,9 @@ const char* to_string(PlanStatus status);
 
 /// Where the guided share of the samples comes from.
 enum class Strategy {
-  uniform,  ///< no guidance: conventional planning
-  region,   ///< uniformly from the promising region (the paper's sampler)
+  uniform,   ///< no guidance: conventional planning
+  region,    ///< uniformly from the promising region (the paper's sampler)
+  frontier,  ///< from the part of the region just ahead of the tree
 };
 
 /// @throws RequestError for an unknown word; the text lists the known ones.
@@ -73,12 +74,12 @@ struct PlanRequest {
 
 /// How to plan.
 struct PlanOptions {
-  std::string planner = "RRTstar";       ///< one of planner_names(): RRT, RRTConnect, RRTstar
-  Strategy strategy = Strategy::region;  ///< where guided samples come from
-  double alpha = 0.8;                    ///< share of guided samples, 0 to 1; 1 gives up completeness
-  double range = 0.0;                    ///< longest extension of the tree, map units; 0 chooses by the map's clearance
-  double goal_bias = 0.05;               ///< share of iterations that aim at the goal (RRT and RRT*)
-  double goal_tolerance = 0.0;           ///< the path may end this far from the goal, map units; 0 ends exactly there
+  std::string planner = "RRTstar";         ///< one of planner_names(): RRT, RRTConnect, RRTstar
+  Strategy strategy = Strategy::frontier;  ///< where guided samples come from
+  double alpha = 0.8;                      ///< share of guided samples, 0 to 1; 1 gives up completeness
+  double range = 0.0;           ///< longest extension of the tree, map units; 0 chooses by the map's clearance
+  double goal_bias = 0.05;      ///< share of iterations that aim at the goal (RRT and RRT*)
+  double goal_tolerance = 0.0;  ///< the path may end this far from the goal, map units; 0 ends exactly there
   Stop stop = Stop::first;
   /// For Stop::factor. The reference is the shortest grid path, straightened by line of sight.
   double cost_factor = 1.05;

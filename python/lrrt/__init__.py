@@ -9,17 +9,21 @@
 
 from importlib.metadata import version as _version
 
+from lrrt import _core
 from lrrt._core import (
+    AStarPredictor,
     CancelToken,
     Encoder,
     Encoding,
     Error,
+    GivenRegion,
     MapError,
     ModelError,
     ModelInfo,
     OccupancyMap,
     OnnxPredictor,
     PlanResult,
+    PotentialFieldPredictor,
     PromisingRegion,
     RegionPredictor,
     RequestError,
@@ -27,6 +31,7 @@ from lrrt._core import (
     planner_names,
     read_scenarios,
     shortest_path,
+    widened,
 )
 from lrrt.drawing import draw
 from lrrt.maps import read_map
@@ -35,16 +40,19 @@ from lrrt.planning import default_predictor, plan
 __version__ = _version("lrrt")
 
 __all__ = [
+    "AStarPredictor",
     "CancelToken",
     "Encoder",
     "Encoding",
     "Error",
+    "GivenRegion",
     "MapError",
     "ModelError",
     "ModelInfo",
     "OccupancyMap",
     "OnnxPredictor",
     "PlanResult",
+    "PotentialFieldPredictor",
     "PromisingRegion",
     "RegionPredictor",
     "RequestError",
@@ -57,4 +65,9 @@ __all__ = [
     "read_map",
     "read_scenarios",
     "shortest_path",
+    "widened",
 ]
+
+if hasattr(_core, "TorchScriptPredictor"):  # built with libtorch
+    TorchScriptPredictor = _core.TorchScriptPredictor
+    __all__ += ["TorchScriptPredictor"]

@@ -68,10 +68,17 @@ py::array_t<std::uint8_t> cells_view(const py::object& self) {
   return view;
 }
 
-py::array_t<double> path_array(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal) {
-  const std::vector<Pixel> path = [&] {
+py::array_t<double> path_array(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
+                               double clearance, bool smooth) {
+  const std::vector<Eigen::Vector2d> path = [&] {
     const py::gil_scoped_release release;
-    return shortest_path(map, OccupancyMap::pixel_of(map.to_pixel(start)), OccupancyMap::pixel_of(map.to_pixel(goal)));
+    const ClearanceCost cost{clearance};
+    const std::vector<Pixel> pixels = shortest_path(map, OccupancyMap::pixel_of(map.to_pixel(start)),
+                                                    OccupancyMap::pixel_of(map.to_pixel(goal)), cost);
+    if (smooth) return smoothed(map, pixels, cost);
+    std::vector<Eigen::Vector2d> points;
+    for (const Pixel p : pixels) points.emplace_back(p.c + 0.5, p.r + 0.5);
+    return points;
   }();
   if (path.empty()) {
     std::ostringstream text;
@@ -81,11 +88,26 @@ py::array_t<double> path_array(const OccupancyMap& map, const Eigen::Vector2d& s
   }
   std::vector<double> flat;
   flat.reserve(2 * path.size());
-  for (const Pixel p : path) {
-    const Eigen::Vector2d point = map.center(p);
+  for (const Eigen::Vector2d& p : path) {
+    const Eigen::Vector2d point = map.to_world(p);
     flat.insert(flat.end(), {point.x(), point.y()});
   }
   return to_array(std::move(flat), {static_cast<py::ssize_t>(path.size()), 2});
+}
+
+py::array_t<bool> widened_array(const OccupancyMap& map, const DenseArray<double>& path, double radius) {
+  if (path.ndim() != 2 || path.shape(1) != 2) throw RequestError("a path is an (N, 2) array of points in map units");
+  std::vector<Eigen::Vector2d> points;
+  for (py::ssize_t i = 0; i < path.shape(0); ++i) {
+    points.push_back(map.to_pixel({path.at(i, 0), path.at(i, 1)}));
+  }
+  const std::vector<std::uint8_t> mask = [&] {
+    const py::gil_scoped_release release;
+    return widened(map, points, radius);
+  }();
+  py::array_t<bool> result({map.height(), map.width()});
+  std::copy(mask.begin(), mask.end(), result.mutable_data());
+  return result;
 }
 
 std::string describe(const OccupancyMap& map) {
@@ -126,9 +148,17 @@ void bind_map(py::module_& module) {
       .def("to_world", &OccupancyMap::to_world, py::arg("pixel"), "Pixel coordinates to map units.")
       .def("__repr__", &describe);
 
-  module.def("shortest_path", &path_array, py::arg("map"), py::arg("start"), py::arg("goal"),
-             "Shortest grid path from `start` to `goal` (map units) as (N, 2) pixel centres in map units.\n\n"
-             "Eight neighbours, no corner is cut. Raises RequestError when there is none.");
+  module.def(
+      "shortest_path", &path_array, py::arg("map"), py::arg("start"), py::arg("goal"), py::arg("clearance") = 0.0,
+      py::arg("smooth") = false,
+      "Shortest grid path from `start` to `goal` (map units) as (N, 2) points in map units.\n\n"
+      "Eight neighbours, no corner is cut. Nearer than `clearance` pixels to an obstacle a step costs up to four\n"
+      "times its length. `smooth` pulls the path taut: corners only, any angle; otherwise all pixel centres.\n"
+      "Raises RequestError when there is none.");
+  module.def(
+      "widened", &widened_array, py::arg("map"), py::arg("path"), py::arg("radius"),
+      "(H, W) bool, the free pixels within a walking distance of `radius` pixels of a path ((N, 2), map units).\n\n"
+      "The path is widened within free space and never leaks through a wall.");
 }
 
 }  // namespace lrrt::python

@@ -19,6 +19,7 @@ namespace py = pybind11;
 void bind_map(py::module_& module);
 void bind_read_map(py::module_& module);
 void bind_predict(py::module_& module);
+void bind_grid_predictors(py::module_& module);
 void bind_planner(py::module_& module);
 
 /// Hands a vector to NumPy without copying it: the array owns the vector.

@@ -46,5 +46,6 @@ PYBIND11_MODULE(_core, module) {
   lrrt::python::bind_map(module);
   lrrt::python::bind_read_map(module);
   lrrt::python::bind_predict(module);
+  lrrt::python::bind_grid_predictors(module);
   lrrt::python::bind_planner(module);
 }

@@ -7,6 +7,12 @@
 #include <cstdlib>
 #include <limits>
 #include <queue>
+#include <sstream>
+#include <string>
+
+#include "lrrt/error.hpp"
+#include "lrrt/map/distance_field.hpp"
+#include "lrrt/map/segment_walk.hpp"
 
 namespace lrrt {
 namespace {
@@ -61,10 +67,49 @@ std::vector<Pixel> trace(const OccupancyMap& map, const std::vector<std::int8_t>
   return path;
 }
 
+void check(const ClearanceCost& clearance) {
+  const auto allowed = [](double value) { return value >= 0.0 && std::isfinite(value); };
+  if (allowed(clearance.distance) && allowed(clearance.weight)) return;
+  std::ostringstream text;
+  text << "clearance of " << clearance.distance << " pixels with weight " << clearance.weight
+       << ": expected two finite numbers, 0 or more";
+  throw RequestError(text.str());
+}
+
+/// Cost of a unit of length at every pixel; empty where it is 1 everywhere.
+std::vector<float> unit_costs(const OccupancyMap& map, const ClearanceCost& clearance) {
+  if (clearance.distance <= 0.0 || clearance.weight <= 0.0) return {};
+  std::vector<float> costs = DistanceField(map).values();
+  for (float& value : costs) {
+    const double lack = std::max(0.0, 1.0 - std::max(0.0, value - 1.0) / clearance.distance);
+    value = static_cast<float>(1.0 + clearance.weight * lack * lack);
+  }
+  return costs;
+}
+
+/// Cost of a straight line between two points, summed over steps of about half a pixel.
+double line_cost(const OccupancyMap& map, const std::vector<float>& costs, const Eigen::Vector2d& from,
+                 const Eigen::Vector2d& to) {
+  const double length = (to - from).norm();
+  if (costs.empty()) return length;
+  const int steps_taken = std::max(1, static_cast<int>(std::ceil(2.0 * length)));
+  double sum = 0.0;
+  for (int i = 0; i < steps_taken; ++i) {
+    sum += costs[map.index(OccupancyMap::pixel_of(from + (to - from) * ((i + 0.5) / steps_taken)))];
+  }
+  return sum * length / steps_taken;
+}
+
+Eigen::Vector2d middle(Pixel p) {
+  return {p.c + 0.5, p.r + 0.5};
+}
+
 }  // namespace
 
-std::vector<Pixel> shortest_path(const OccupancyMap& map, Pixel start, Pixel goal) {
+std::vector<Pixel> shortest_path(const OccupancyMap& map, Pixel start, Pixel goal, const ClearanceCost& clearance) {
+  check(clearance);
   if (!map.is_free(start) || !map.is_free(goal)) return {};
+  const std::vector<float> costs = unit_costs(map, clearance);
   std::vector<float> cost(map.size(), unreached);
   std::vector<std::int8_t> arrived_by(map.size(), -1);
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
@@ -78,7 +123,8 @@ std::vector<Pixel> shortest_path(const OccupancyMap& map, Pixel start, Pixel goa
     for (std::size_t i = 0; i < steps.size(); ++i) {
       if (!can_step(map, node.pixel, steps[i])) continue;
       const Pixel next{node.pixel.c + steps[i].dc, node.pixel.r + steps[i].dr};
-      const float next_cost = node.cost + steps[i].cost;
+      const float factor = costs.empty() ? 1.0F : 0.5F * (costs[map.index(node.pixel)] + costs[map.index(next)]);
+      const float next_cost = node.cost + steps[i].cost * factor;
       if (next_cost >= cost[map.index(next)]) continue;
       cost[map.index(next)] = next_cost;
       arrived_by[map.index(next)] = static_cast<std::int8_t>(i);
@@ -86,6 +132,62 @@ std::vector<Pixel> shortest_path(const OccupancyMap& map, Pixel start, Pixel goa
     }
   }
   return {};
+}
+
+std::vector<Eigen::Vector2d> smoothed(const OccupancyMap& map, const std::vector<Pixel>& path,
+                                      const ClearanceCost& clearance) {
+  check(clearance);
+  if (path.empty()) return {};
+  constexpr double rounding = 1e-6;
+  const std::vector<float> costs = unit_costs(map, clearance);
+  const DistanceField field(map);
+  const SegmentWalk walk(field);
+  std::vector<Eigen::Vector2d> corners{middle(path.front())};
+  double along = 0.0;  // cost of the pixel path from the last corner on
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Eigen::Vector2d before = middle(path[i - 1]);
+    along += line_cost(map, costs, before, middle(path[i]));
+    const bool straight = walk.is_free(corners.back(), middle(path[i])) &&
+                          line_cost(map, costs, corners.back(), middle(path[i])) <= along * (1.0 + rounding);
+    if (straight) continue;
+    along = line_cost(map, costs, before, middle(path[i]));
+    corners.push_back(before);
+  }
+  if (path.size() > 1) corners.push_back(middle(path.back()));
+  return corners;
+}
+
+std::vector<std::uint8_t> widened(const OccupancyMap& map, const std::vector<Eigen::Vector2d>& points, double radius) {
+  if (!(radius >= 0.0 && std::isfinite(radius))) {
+    throw RequestError("a path cannot be widened by " + std::to_string(radius) + " pixels: expected 0 or more");
+  }
+  std::vector<float> distance(map.size(), unreached);
+  std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+  const auto reach = [&](Pixel p, float value) {
+    if (!map.is_free(p) || value > static_cast<float>(radius) || value >= distance[map.index(p)]) return;
+    distance[map.index(p)] = value;
+    open.push({value, value, p});
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector2d step =
+        i + 1 < points.size() ? Eigen::Vector2d(points[i + 1] - points[i]) : Eigen::Vector2d(0, 0);
+    const int parts = std::max(1, static_cast<int>(std::ceil(2.0 * step.norm())));
+    for (int k = 0; k < parts; ++k) reach(OccupancyMap::pixel_of(points[i] + step * k / parts), 0.0F);
+  }
+  while (!open.empty()) {
+    const Open node = open.top();
+    open.pop();
+    if (node.cost > distance[map.index(node.pixel)]) continue;
+    for (const Step& step : steps) {
+      if (can_step(map, node.pixel, step)) {
+        reach({node.pixel.c + step.dc, node.pixel.r + step.dr}, node.cost + step.cost);
+      }
+    }
+  }
+  std::vector<std::uint8_t> mask(map.size());
+  std::transform(distance.begin(), distance.end(), mask.begin(),
+                 [](float value) { return static_cast<std::uint8_t>(value < unreached); });
+  return mask;
 }
 
 double path_length(const std::vector<Pixel>& path) {

@@ -13,6 +13,8 @@
 
 #include "lrrt/error.hpp"
 #include "lrrt/map/shortest_path.hpp"
+#include "lrrt/ompl/guide.hpp"
+#include "lrrt/ompl/suitable_range.hpp"
 
 namespace lrrt {
 namespace {
@@ -57,18 +59,6 @@ std::uint32_t planner_seed(std::uint64_t seed) {
 
 }  // namespace
 
-double suitable_range(const CollisionMap& map) {
-  double sum = 0.0;
-  std::size_t free = 0;
-  for (const float distance : map.field().values()) {
-    sum += distance;
-    free += static_cast<std::size_t>(distance > 0.0F);
-  }
-  const double clearance = free > 0 ? sum / static_cast<double>(free) : 0.0;
-  const double side = std::max(map.map().width(), map.map().height());
-  return std::max(2.0 * clearance, side * 6.0 / 256.0) * map.map().resolution();
-}
-
 MapSearch::MapSearch(std::shared_ptr<const CollisionMap> map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
                      MixedSampler sampler, const PlanOptions& options, CancelToken cancel)
     : map_(std::move(map)),
@@ -81,8 +71,6 @@ MapSearch::MapSearch(std::shared_ptr<const CollisionMap> map, const Eigen::Vecto
   si_ = std::make_shared<ob::SpaceInformation>(space);
   si_->setStateValidityChecker(std::make_shared<MapValidityChecker>(si_, map_, projection_));
   si_->setMotionValidator(std::make_shared<MapMotionValidator>(si_, map_, projection_, limits_));
-  source_ = std::make_shared<GuidedSource>(map_, std::move(sampler), projection_);
-  use_guided_sampler(*si_, source_);
   si_->setup();
 
   ob::ScopedState<> first(space);
@@ -99,6 +87,7 @@ MapSearch::MapSearch(std::shared_ptr<const CollisionMap> map, const Eigen::Vecto
   const double range = options_.range > 0.0 ? options_.range : suitable_range(*map_);
   planner_ = make_planner(options_.planner, si_, {range, options_.goal_bias, planner_seed(options_.seed)});
   planner_.planner->setProblemDefinition(problem_);
+  source_ = guide(*planner_.planner, map_, std::move(sampler), projection_);
   planner_.planner->setup();
 }
 
@@ -143,7 +132,9 @@ void MapSearch::run(PlanResult& result) {
 
 void MapSearch::record_costs(PlanResult& result) {
   problem_->setIntermediateSolutionCallback(
-      [this, &result](const ob::Planner*, const std::vector<const ob::State*>&, const ob::Cost cost) {
+      [this, &result, guided = problem_->getIntermediateSolutionCallback()](
+          const ob::Planner* planner, const std::vector<const ob::State*>& states, const ob::Cost cost) {
+        guided(planner, states, cost);
         const bool better = result.cost_history.empty() || cost.value() < result.cost_history.back().cost;
         if (better) result.cost_history.push_back({limits_->elapsed_ms(), limits_->iterations(), cost.value()});
       });

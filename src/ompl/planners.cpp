@@ -1,12 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "lrrt/ompl/planners.hpp"
 
+#include <ompl/base/PlannerData.h>
+#include <ompl/geometric/planners/est/BiEST.h>
+#include <ompl/geometric/planners/est/EST.h>
+#include <ompl/geometric/planners/fmt/FMT.h>
+#include <ompl/geometric/planners/informedtrees/ABITstar.h>
+#include <ompl/geometric/planners/informedtrees/AITstar.h>
+#include <ompl/geometric/planners/informedtrees/BITstar.h>
+#include <ompl/geometric/planners/prm/LazyPRM.h>
+#include <ompl/geometric/planners/prm/LazyPRMstar.h>
+#include <ompl/geometric/planners/prm/PRM.h>
+#include <ompl/geometric/planners/prm/PRMstar.h>
+#include <ompl/geometric/planners/rrt/BiTRRT.h>
+#include <ompl/geometric/planners/rrt/InformedRRTstar.h>
 #include <ompl/geometric/planners/rrt/RRT.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
+#include <ompl/geometric/planners/rrt/RRTXstatic.h>
+#include <ompl/geometric/planners/rrt/RRTsharp.h>
 #include <ompl/geometric/planners/rrt/RRTstar.h>
+#include <ompl/geometric/planners/rrt/SORRTstar.h>
+#include <ompl/geometric/planners/rrt/TRRT.h>
+#include <ompl/geometric/planners/sst/SST.h>
 
 #include <map>
 #include <memory>
+#include <type_traits>
 
 #include "lrrt/error.hpp"
 
@@ -16,18 +35,41 @@ namespace {
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
 
+template <typename Planner, typename... Bases>
+constexpr bool is_a = (std::is_base_of_v<Bases, Planner> || ...);
+
+template <typename Planner>
+constexpr bool has_random_numbers =
+    is_a<Planner, og::RRT, og::RRTConnect, og::RRTstar, og::RRTXstatic, og::TRRT, og::PRM, og::EST, og::BiEST, og::SST>;
+template <typename Planner>
+constexpr bool has_one_tree = is_a<Planner, og::RRT, og::RRTstar, og::RRTXstatic>;
+template <typename Planner>
+constexpr bool has_two_trees = is_a<Planner, og::RRTConnect, og::BiTRRT>;
+template <typename Planner>
+constexpr bool has_range = !is_a<Planner, og::BITstar, og::AITstar, og::FMT, og::PRM, og::LazyPRM>;
+template <typename Planner>
+constexpr bool has_goal_bias = is_a<Planner, og::RRT, og::RRTstar, og::RRTXstatic, og::TRRT, og::EST, og::SST>;
+
 /// OMPL seeds the generators of a process one after the other, so a planner's numbers depend on how many were made
 /// before it. The generator is protected: a subclass gives each planner its own seed.
 template <typename Planner>
 class Seeded final : public Planner {
  public:
-  Seeded(const ob::SpaceInformationPtr& si, std::uint32_t seed) : Planner(si) { this->rng_.setLocalSeed(seed); }
+  Seeded(const ob::SpaceInformationPtr& si, std::uint32_t seed) : Planner(si) {
+    if constexpr (has_random_numbers<Planner>) this->rng_.setLocalSeed(seed);
+    // OMPL warns of its own default: the plain name is for the version that connects within a radius
+    if constexpr (is_a<Planner, og::BITstar>) this->setName("k" + this->getName());
+  }
 
   std::size_t nodes() const {
-    if constexpr (std::is_same_v<Planner, og::RRTConnect>) {
+    if constexpr (has_two_trees<Planner>) {
       return (this->tStart_ ? this->tStart_->size() : 0) + (this->tGoal_ ? this->tGoal_->size() : 0);
-    } else {
+    } else if constexpr (has_one_tree<Planner>) {
       return this->nn_ ? this->nn_->size() : 0;
+    } else {
+      ob::PlannerData data(this->si_);
+      this->getPlannerData(data);
+      return data.numVertices();
     }
   }
 };
@@ -35,21 +77,59 @@ class Seeded final : public Planner {
 template <typename Planner>
 MapPlanner make(const ob::SpaceInformationPtr& si, const PlannerSettings& settings) {
   const auto planner = std::make_shared<Seeded<Planner>>(si, settings.seed);
-  planner->setRange(settings.range);
-  if constexpr (!std::is_same_v<Planner, og::RRTConnect>) planner->setGoalBias(settings.goal_bias);
-  if constexpr (std::is_same_v<Planner, og::RRTstar>) planner->setKNearest(false);
+  if constexpr (has_range<Planner>) planner->setRange(settings.range);
+  if constexpr (has_goal_bias<Planner>) planner->setGoalBias(settings.goal_bias);
+  if constexpr (is_a<Planner, og::RRTstar, og::RRTXstatic>) planner->setKNearest(false);
+  if constexpr (is_a<Planner, og::SST>) {  // OMPL's own radii are fixed lengths, whatever the unit of the map
+    planner->setSelectionRadius(0.5 * settings.range);
+    planner->setPruningRadius(0.25 * settings.range);
+  }
   return {planner, [raw = planner.get()] { return raw->nodes(); }};
 }
 
-using Maker = MapPlanner (*)(const ob::SpaceInformationPtr&, const PlannerSettings&);
+struct Entry {
+  MapPlanner (*maker)(const ob::SpaceInformationPtr&, const PlannerSettings&);
+  bool shortens;      ///< goes on after its first path to shorten it
+  bool aims_at_goal;  ///< reaches the goal only because some iterations aim at it
+};
 
-const std::map<std::string, Maker>& makers() {
-  static const std::map<std::string, Maker> table = {
-      {"RRT", &make<og::RRT>},
-      {"RRTConnect", &make<og::RRTConnect>},
-      {"RRTstar", &make<og::RRTstar>},
+template <typename Planner>
+constexpr Entry describe(bool shortens) {
+  return {&make<Planner>, shortens, has_goal_bias<Planner>};
+}
+
+const std::map<std::string, Entry>& table() {
+  static const std::map<std::string, Entry> entries = {
+      {"ABITstar", describe<og::ABITstar>(true)},
+      {"AITstar", describe<og::AITstar>(true)},
+      {"BITstar", describe<og::BITstar>(true)},
+      {"BiEST", describe<og::BiEST>(false)},
+      {"BiTRRT", describe<og::BiTRRT>(false)},
+      {"EST", describe<og::EST>(false)},
+      {"FMT", describe<og::FMT>(false)},
+      {"InformedRRTstar", describe<og::InformedRRTstar>(true)},
+      {"LazyPRM", describe<og::LazyPRM>(false)},
+      {"LazyPRMstar", describe<og::LazyPRMstar>(true)},
+      {"PRM", describe<og::PRM>(true)},
+      {"PRMstar", describe<og::PRMstar>(true)},
+      {"RRT", describe<og::RRT>(false)},
+      {"RRTConnect", describe<og::RRTConnect>(false)},
+      {"RRTXstatic", describe<og::RRTXstatic>(true)},
+      {"RRTsharp", describe<og::RRTsharp>(true)},
+      {"RRTstar", describe<og::RRTstar>(true)},
+      {"SORRTstar", describe<og::SORRTstar>(true)},
+      {"SST", describe<og::SST>(true)},
+      {"TRRT", describe<og::TRRT>(false)},
   };
-  return table;
+  return entries;
+}
+
+const Entry& entry(const std::string& name) {
+  const auto found = table().find(name);
+  if (found != table().end()) return found->second;
+  std::string known;
+  for (const std::string& each : planner_names()) known += (known.empty() ? "" : ", ") + each;
+  throw RequestError("unknown planner '" + name + "': expected one of " + known);
 }
 
 }  // namespace
@@ -57,22 +137,26 @@ const std::map<std::string, Maker>& makers() {
 const std::vector<std::string>& planner_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> result;
-    for (const auto& entry : makers()) result.push_back(entry.first);
+    for (const auto& each : table()) result.push_back(each.first);
     return result;
   }();
   return names;
 }
 
 void check_planner_name(const std::string& name) {
-  if (makers().count(name) != 0) return;
-  std::string known;
-  for (const std::string& entry : planner_names()) known += (known.empty() ? "" : ", ") + entry;
-  throw RequestError("unknown planner '" + name + "': expected one of " + known);
+  entry(name);
+}
+
+bool shortens_its_path(const std::string& name) {
+  return entry(name).shortens;
+}
+
+bool needs_goal_bias(const std::string& name) {
+  return entry(name).aims_at_goal;
 }
 
 MapPlanner make_planner(const std::string& name, const ob::SpaceInformationPtr& si, const PlannerSettings& settings) {
-  check_planner_name(name);
-  return makers().at(name)(si, settings);
+  return entry(name).maker(si, settings);
 }
 
 }  // namespace lrrt

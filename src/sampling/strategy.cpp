@@ -1,34 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "lrrt/sampling/strategy.hpp"
 
-#include <string>
-#include <utility>
-
 #include "lrrt/error.hpp"
 
 namespace lrrt {
 
-Eigen::Vector2d UniformStrategy::draw(Random& random) const {
-  const double x = random.uniform(0.0, width_);
-  return {x, random.uniform(0.0, height_)};
-}
-
-RegionStrategy::RegionStrategy(const PromisingRegion& region) : bridge_(region.bridge()) {
+RegionStrategy::RegionStrategy(const PromisingRegion& region)
+    : width_(region.width()), height_(region.height()), mask_(region.mask()), bridge_(region.bridge()) {
   if (region.area() == 0) {
     throw RequestError(
         "the promising region is empty: there is nothing to draw from; use the uniform strategy instead");
   }
   pixels_.reserve(region.area());
-  for (int r = 0; r < region.height(); ++r) {
-    for (int c = 0; c < region.width(); ++c) {
-      const auto i =
-          static_cast<std::size_t>(r) * static_cast<std::size_t>(region.width()) + static_cast<std::size_t>(c);
-      if (region.mask()[i] != 0) pixels_.push_back({c, r});
-    }
+  for (std::size_t i = 0; i < mask_.size(); ++i) {
+    const auto width = static_cast<std::size_t>(width_);
+    if (mask_[i] != 0) pixels_.push_back({static_cast<int>(i % width), static_cast<int>(i / width)});
   }
 }
 
-Eigen::Vector2d RegionStrategy::draw(Random& random) const {
+Eigen::Vector2d RegionStrategy::draw(Random& random) {
   const bool from_bridge = !bridge_.empty() && random.uniform() < 0.5;
   const std::vector<Pixel>& pixels = from_bridge ? bridge_ : pixels_;
   const Pixel pixel = pixels[random.index(pixels.size())];
@@ -36,21 +26,10 @@ Eigen::Vector2d RegionStrategy::draw(Random& random) const {
   return {x, pixel.r + random.uniform()};
 }
 
-MixedSampler::MixedSampler(std::unique_ptr<SamplingStrategy> guided, UniformStrategy uniform, double alpha,
-                           std::uint64_t seed)
-    : guided_(std::move(guided)), uniform_(std::move(uniform)), alpha_(alpha), random_(seed) {
-  if (!(alpha >= 0.0 && alpha <= 1.0)) {
-    throw RequestError("alpha " + std::to_string(alpha) + ": expected a share of guided samples from 0 to 1");
-  }
-}
-
-Eigen::Vector2d MixedSampler::draw() {
-  if (guided_ && random_.uniform() < alpha_) {
-    ++counts_.guided;
-    return guided_->draw(random_);
-  }
-  ++counts_.uniform;
-  return uniform_.draw(random_);
+bool RegionStrategy::contains(const Eigen::Vector2d& point) const {
+  const Pixel p = OccupancyMap::pixel_of(point);
+  if (p.c < 0 || p.r < 0 || p.c >= width_ || p.r >= height_) return false;
+  return mask_[static_cast<std::size_t>(p.r) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(p.c)] != 0;
 }
 
 }  // namespace lrrt

@@ -3,12 +3,13 @@
 #include <ompl/base/ScopedState.h>
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
+#include <ompl/geometric/planners/rrt/RRT.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "lrrt/error.hpp"
-#include "lrrt/ompl/guided_sampler.hpp"
+#include "lrrt/ompl/guide.hpp"
 #include "lrrt/ompl/map_validity.hpp"
 #include "lrrt/sampling/strategy.hpp"
 #include "support.hpp"
@@ -33,7 +34,7 @@ PromisingRegion left_third(const OccupancyMap& map) {
 TEST(Sampling, RegionDrawsAreUniformOverThePixelsOfTheMask) {
   const OccupancyMap map = test::map_from_rows({".#.", "...", "##."});
   const PromisingRegion region(map, std::vector<float>(9, 1.0F), {0, 0}, {2, 2});
-  const RegionStrategy strategy(region);
+  RegionStrategy strategy(region);
   Random random(1);
   std::vector<std::size_t> hits(9, 0);
   double offset = 0.0;
@@ -61,7 +62,7 @@ TEST(Sampling, HalfOfTheDrawsComeFromTheMiddleOfABridge) {
   const PromisingRegion region =
       PromisingRegion(map, probability, {0, 10}, {39, 10}).bridged(map, {0, 10}, {39, 10}, 2);
   ASSERT_EQ(region.bridge().size(), 10U);
-  const RegionStrategy strategy(region);
+  RegionStrategy strategy(region);
   Random random(2);
   constexpr std::size_t draws = 50000;
   std::size_t hits = 0;
@@ -120,12 +121,18 @@ struct Guided {
     const auto projection = std::make_shared<PlaneProjection>();
     si->setStateValidityChecker(std::make_shared<MapValidityChecker>(si, collision, projection));
     si->setMotionValidator(std::make_shared<MapMotionValidator>(si, collision, projection));
-    source = std::make_shared<GuidedSource>(
-        collision,
+    si->setup();
+    const auto problem = std::make_shared<ompl::base::ProblemDefinition>(si);
+    ompl::base::ScopedState<ompl::base::RealVectorStateSpace> start(space);
+    start[0] = -4.4;
+    start[1] = 3.1;
+    problem->setStartAndGoalStates(start, start);
+    planner = std::make_shared<ompl::geometric::RRT>(si);
+    planner->setProblemDefinition(problem);
+    source = guide(
+        *planner, collision,
         MixedSampler(std::make_unique<RegionStrategy>(left_third(collision->map())), UniformStrategy(30, 30), alpha, 5),
         projection);
-    use_guided_sampler(*si, source);
-    si->setup();
   }
 
   static std::vector<Cell> walls() {
@@ -137,6 +144,7 @@ struct Guided {
   std::shared_ptr<CollisionMap> collision;
   std::shared_ptr<ompl::base::RealVectorStateSpace> space;
   ompl::base::SpaceInformationPtr si;
+  ompl::base::PlannerPtr planner;
   std::shared_ptr<GuidedSource> source;
 };
 

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <ompl/base/MotionValidator.h>
 #include <ompl/base/StateSampler.h>
 #include <ompl/base/ValidStateSampler.h>
 
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "lrrt/ompl/map_projection.hpp"
 #include "lrrt/ompl/map_validity.hpp"
-#include "lrrt/sampling/strategy.hpp"
+#include "lrrt/sampling/mixed_sampler.hpp"
 
 namespace lrrt {
 
@@ -16,18 +19,58 @@ namespace lrrt {
 /// several samplers of the same planner, so that its counts cover them all. Not for concurrent use.
 class GuidedSource {
  public:
+  /// @param start,goal map units.
   GuidedSource(std::shared_ptr<const CollisionMap> map, MixedSampler sampler,
-               std::shared_ptr<const MapProjection> projection)
-      : map_(std::move(map)), sampler_(std::move(sampler)), projection_(std::move(projection)) {}
+               std::shared_ptr<const MapProjection> projection, const Eigen::Vector2d& start,
+               const Eigen::Vector2d& goal)
+      : map_(std::move(map)),
+        sampler_(std::move(sampler)),
+        projection_(std::move(projection)),
+        start_(map_->map().to_pixel(start)),
+        goal_(map_->map().to_pixel(goal)) {}
 
-  /// Moves a state to the next point; its coordinates outside the map's plane stay as they are.
-  void place(ompl::base::State* state) { projection_->write(map_->map().to_world(sampler_.draw()), state); }
+  /// The next state: its position from the sampler, its other coordinates from OMPL's own one.
+  void place(ompl::base::State* state, ompl::base::StateSampler& other) { write(sampler_.draw(), state, other); }
+  /// A guided state, not counted.
+  void place_guided(ompl::base::State* state, ompl::base::StateSampler& other) {
+    write(sampler_.draw_guided(), state, other);
+  }
+  /// A state near another one. In the plane the source draws it itself, so that the seed decides it.
+  void place_near(ompl::base::State* state, const ompl::base::State* near, double distance,
+                  ompl::base::StateSampler& other);
+  /// A uniform state over which a path could be shorter than `length` (map units, infinite for any), drawn by the
+  /// source itself. @return false where states have other coordinates than their position: then OMPL has to draw it.
+  bool place_informed(ompl::base::State* state, double length);
+  /// True when the next draw shall be a guided one, see MixedSampler.
+  bool wants_guided() { return sampler_.wants_guided(); }
+  /// Counts a draw that another sampler made, guided or not.
+  void count(bool guided) { sampler_.count(guided); }
+  /// True for a state that a guided draw could give.
+  bool promising(const ompl::base::State* state) const { return sampler_.promising(pixel_point(state)); }
+  /// Tells the sampler that a motion is free, so that it can follow the tree.
+  void connected(const ompl::base::State* from, const ompl::base::State* to) {
+    sampler_.connected(pixel_point(from), pixel_point(to));
+  }
+  /// Tells the sampler of a better path.
+  /// @param states its states in either order, with or without start and goal, as OMPL's planners report them.
+  /// @param length map units; infinite where the cost of the path is no length.
+  void improved(const std::vector<const ompl::base::State*>& states, double length);
   DrawCounts counts() const { return sampler_.counts(); }
 
  private:
+  Eigen::Vector2d pixel_point(const ompl::base::State* state) const {
+    return map_->map().to_pixel(projection_->read(state));
+  }
+  void write(const Eigen::Vector2d& point, ompl::base::State* state, ompl::base::StateSampler& other) {
+    if (!projection_->is_whole_state()) other.sampleUniform(state);
+    projection_->write(map_->map().to_world(point), state);
+  }
+
   std::shared_ptr<const CollisionMap> map_;
   MixedSampler sampler_;
   std::shared_ptr<const MapProjection> projection_;
+  Eigen::Vector2d start_;  // pixel coordinates
+  Eigen::Vector2d goal_;
 };
 
 /// The paper's biased sampler as OMPL's ValidStateSampler: only collision-free states. For planners such as PRM.
@@ -36,7 +79,7 @@ class GuidedValidStateSampler final : public ompl::base::ValidStateSampler {
   GuidedValidStateSampler(const ompl::base::SpaceInformation* si, std::shared_ptr<GuidedSource> source);
   /// False when no free state was found within OMPL's number of attempts.
   bool sample(ompl::base::State* state) override;
-  /// Not guided: a uniform free state near another one.
+  /// A free state near another one; with probability α one of the promising region, where any lies near.
   bool sampleNear(ompl::base::State* state, const ompl::base::State* near, double distance) override;
 
  private:
@@ -57,9 +100,20 @@ class GuidedStateSampler final : public ompl::base::StateSampler {
   ompl::base::StateSamplerPtr uniform_;
 };
 
-/// Sets both sampler allocators of a space information. It guides planners that call StateSampler::sampleUniform (RRT,
-/// RRT*, RRT-Connect, …) or ValidStateSampler::sample (PRM, …); not the informed ones (Informed RRT*, BIT*, …), which
-/// ask the objective for their sampler, nor those that only sample near a state (EST, KPIECE).
-void use_guided_sampler(ompl::base::SpaceInformation& si, const std::shared_ptr<GuidedSource>& source);
+/// Checks motions by another validator and tells the source of those that are free.
+class ObservingMotionValidator final : public ompl::base::MotionValidator {
+ public:
+  ObservingMotionValidator(ompl::base::SpaceInformation* si, ompl::base::MotionValidatorPtr inner,
+                           std::shared_ptr<GuidedSource> source);
+  bool checkMotion(const ompl::base::State* from, const ompl::base::State* to) const override;
+  bool checkMotion(const ompl::base::State* from, const ompl::base::State* to,
+                   std::pair<ompl::base::State*, double>& last_valid) const override;
+
+ private:
+  bool noted(bool free, const ompl::base::State* from, const ompl::base::State* to) const;
+
+  ompl::base::MotionValidatorPtr inner_;
+  std::shared_ptr<GuidedSource> source_;
+};
 
 }  // namespace lrrt

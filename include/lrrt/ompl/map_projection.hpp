@@ -15,6 +15,8 @@ class MapProjection {
   virtual Eigen::Vector2d read(const ompl::base::State* state) const = 0;
   /// Moves a state to a position, map units; leaves its other coordinates as they are.
   virtual void write(const Eigen::Vector2d& position, ompl::base::State* state) const = 0;
+  /// True when a state has no other coordinates than its position.
+  virtual bool is_whole_state() const { return false; }
 };
 
 /// The plane itself: OMPL's RealVectorStateSpace with (x, y) as its first two coordinates.
@@ -22,6 +24,7 @@ class PlaneProjection final : public MapProjection {
  public:
   Eigen::Vector2d read(const ompl::base::State* state) const override;
   void write(const Eigen::Vector2d& position, ompl::base::State* state) const override;
+  bool is_whole_state() const override { return true; }
 };
 
 }  // namespace lrrt

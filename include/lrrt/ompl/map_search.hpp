@@ -44,9 +44,4 @@ class MapSearch {
   MapPlanner planner_;
 };
 
-/// A range that suits a map: twice the mean clearance of its free pixels, so that motions fit its passages, and no less
-/// than the paper's share of the map's side (6 of 256 pixels).
-/// @return map units.
-double suitable_range(const CollisionMap& map);
-
 }  // namespace lrrt

@@ -20,17 +20,24 @@ struct PlannerSettings {
 /// An OMPL planner and what OMPL's common interface does not tell.
 struct MapPlanner {
   ompl::base::PlannerPtr planner;
-  std::function<std::size_t()> nodes;  ///< number of nodes in the tree or trees, in O(1)
+  std::function<std::size_t()> nodes;  ///< number of nodes in the tree, trees or roadmap
 };
 
-/// Names that make_planner() knows, as OMPL spells them.
+/// Names that make_planner() knows, as OMPL spells them. Two are missing because they take the process with them
+/// in OMPL 1.5: LBTRRT recurses without end on some queries, BFMT reads a null pointer when time runs out.
 const std::vector<std::string>& planner_names();
 
 /// @throws RequestError for a name that make_planner() does not know; the text lists the known ones.
 void check_planner_name(const std::string& name);
 
-/// Makes an OMPL planner by name. RRT* rewires within a shrinking disc (Karaman and Frazzoli 2011), as the paper's
-/// does.
+/// True for a planner that goes on after its first path to shorten it. @throws RequestError as check_planner_name().
+bool shortens_its_path(const std::string& name);
+
+/// True for a planner that reaches its goal only because some iterations aim at it. @throws RequestError as above.
+bool needs_goal_bias(const std::string& name);
+
+/// Makes an OMPL planner by name. RRT* and its kin rewire within a shrinking disc (Karaman and Frazzoli 2011), as the
+/// paper's does.
 /// @throws RequestError as check_planner_name().
 MapPlanner make_planner(const std::string& name, const ompl::base::SpaceInformationPtr& si,
                         const PlannerSettings& settings);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -10,7 +11,7 @@
 
 namespace lrrt {
 
-/// Decides when a search has to end, and remembers why. Belongs to one search.
+/// Decides when a search has to end, and remembers why. Belongs to one search; PRM asks from two threads.
 class SearchLimits {
  public:
   SearchLimits(double seconds, std::size_t iterations, CancelToken cancel)
@@ -45,7 +46,7 @@ class SearchLimits {
 
  private:
   bool interrupted() {
-    interrupted_ = interrupted_ || cancel_.cancelled() || watch_.total_ms() >= limit_ms_;
+    if (!interrupted_ && (cancel_.cancelled() || watch_.total_ms() >= limit_ms_)) interrupted_ = true;
     return interrupted_;
   }
 
@@ -53,9 +54,9 @@ class SearchLimits {
   double limit_ms_;
   std::size_t iteration_limit_;
   CancelToken cancel_;
-  std::size_t iterations_ = 0;
+  std::atomic<std::size_t> iterations_{0};
   std::uint32_t motions_ = 0;
-  bool interrupted_ = false;
+  std::atomic<bool> interrupted_{false};
 };
 
 }  // namespace lrrt

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <vector>
 
 #include "lrrt/region/promising_region.hpp"
@@ -15,22 +14,21 @@ class SamplingStrategy {
  public:
   virtual ~SamplingStrategy() = default;
   /// One random point, pixel coordinates. Allocates nothing.
-  virtual Eigen::Vector2d draw(Random& random) const = 0;
-};
-
-/// Every point of the map with the same density.
-class UniformStrategy final : public SamplingStrategy {
- public:
-  UniformStrategy(int width, int height) : width_(width), height_(height) {}
-  Eigen::Vector2d draw(Random& random) const override;
-
- private:
-  double width_;
-  double height_;
+  virtual Eigen::Vector2d draw(Random& random) = 0;
+  /// True for a point, pixel coordinates, that the strategy could draw: samples near a state are chosen by this.
+  virtual bool contains(const Eigen::Vector2d& point) const = 0;
+  /// How much of its share of the draws the strategy wants for itself, in [0, 1].
+  virtual double confidence() const { return 1.0; }
+  /// Told of every motion that was found free, pixel coordinates; a strategy may follow the tree by them.
+  virtual void connected(const Eigen::Vector2d& /*from*/, const Eigen::Vector2d& /*to*/) {}
+  /// Told of every better path: its states in pixel coordinates from start to goal, and its length in pixels, infinite
+  /// where cost is no length.
+  /// @return true when the strategy wants uniform draws from now on only where they can shorten that path.
+  virtual bool improved(const std::vector<Eigen::Vector2d>& /*path*/, double /*length*/) { return false; }
 };
 
 /// Every point of the promising region with the same density (the paper's sampler): a random pixel of the mask, and a
-/// random /// point inside it, since pixel centres would repeat and coincide with nodes of the tree.
+/// random point inside it, since pixel centres would repeat and coincide with nodes of the tree.
 ///
 /// Where the region had to be bridged, half of the points come from the middle lines of the bridges instead: they are
 /// the only known way, often a passage of a few pixels that draws over the whole region would hardly ever hit.
@@ -38,39 +36,15 @@ class RegionStrategy final : public SamplingStrategy {
  public:
   /// @throws RequestError when the region holds no pixel: check PromisingRegion::area first.
   explicit RegionStrategy(const PromisingRegion& region);
-  Eigen::Vector2d draw(Random& random) const override;
+  Eigen::Vector2d draw(Random& random) override;
+  bool contains(const Eigen::Vector2d& point) const override;
 
  private:
+  int width_;
+  int height_;
+  std::vector<std::uint8_t> mask_;
   std::vector<Pixel> pixels_;
   std::vector<Pixel> bridge_;
-};
-
-/// How many points were drawn from where.
-struct DrawCounts {
-  std::size_t guided = 0;
-  std::size_t uniform = 0;
-};
-
-/// The paper's sampler: with probability α a guided point, otherwise a uniform one of the whole map.
-///
-/// For α < 1 every point of the map keeps a positive density, so a planner that is probabilistically complete stays
-/// so. α = 1 is allowed, as in the paper, and gives that up: a path that leaves the region is then never found.
-class MixedSampler {
- public:
-  /// @param guided may be null, then every draw is uniform.
-  /// @param alpha share of guided draws, in [0, 1]. @throws RequestError when it is not.
-  MixedSampler(std::unique_ptr<SamplingStrategy> guided, UniformStrategy uniform, double alpha, std::uint64_t seed);
-
-  /// The next point, pixel coordinates.
-  Eigen::Vector2d draw();
-  DrawCounts counts() const { return counts_; }
-
- private:
-  std::unique_ptr<SamplingStrategy> guided_;
-  UniformStrategy uniform_;
-  double alpha_;
-  Random random_;
-  DrawCounts counts_{};
 };
 
 }  // namespace lrrt

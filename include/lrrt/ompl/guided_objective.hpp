@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ompl/base/OptimizationObjective.h>
+#include <ompl/base/samplers/InformedStateSampler.h>
+
+#include <memory>
+
+#include "lrrt/ompl/guided_sampler.hpp"
+
+namespace lrrt {
+
+/// The guided source as OMPL's InformedSampler: with probability α a guided state over which a path could still be
+/// shorter, otherwise what the objective's own informed sampler draws. For planners such as Informed RRT* and BIT*.
+class GuidedInformedSampler final : public ompl::base::InformedSampler {
+ public:
+  /// @param cost_is_length the cost of a path is its length, and there is one start and one goal.
+  GuidedInformedSampler(const ompl::base::ProblemDefinitionPtr& problem, unsigned int attempts,
+                        ompl::base::InformedSamplerPtr inner, std::shared_ptr<GuidedSource> source,
+                        bool cost_is_length);
+  bool sampleUniform(ompl::base::State* state, const ompl::base::Cost& most) override;
+  bool sampleUniform(ompl::base::State* state, const ompl::base::Cost& least, const ompl::base::Cost& most) override;
+  bool hasInformedMeasure() const override { return inner_->hasInformedMeasure(); }
+  double getInformedMeasure(const ompl::base::Cost& cost) const override { return inner_->getInformedMeasure(cost); }
+  double getInformedMeasure(const ompl::base::Cost& least, const ompl::base::Cost& most) const override {
+    return inner_->getInformedMeasure(least, most);
+  }
+  ompl::base::Cost heuristicSolnCost(const ompl::base::State* state) const override {
+    return inner_->heuristicSolnCost(state);
+  }
+
+ private:
+  bool guided(ompl::base::State* state, const ompl::base::Cost* least, const ompl::base::Cost& most);
+  bool informed(ompl::base::State* state, const ompl::base::Cost* least, const ompl::base::Cost& most);
+  bool fits(const ompl::base::State* state, const ompl::base::Cost* least, const ompl::base::Cost& most) const;
+
+  ompl::base::InformedSamplerPtr inner_;
+  std::shared_ptr<GuidedSource> source_;
+  bool cost_is_length_;
+  ompl::base::StateSamplerPtr other_coordinates_;
+};
+
+/// Another objective, word for word, but for the informed sampler that it hands out: OMPL's informed planners ask the
+/// objective for it and never the space.
+class GuidedObjective final : public ompl::base::OptimizationObjective {
+ public:
+  /// @param cost_is_length see GuidedInformedSampler.
+  GuidedObjective(ompl::base::OptimizationObjectivePtr inner, std::shared_ptr<GuidedSource> source,
+                  bool cost_is_length);
+
+  ompl::base::Cost stateCost(const ompl::base::State* state) const override { return inner_->stateCost(state); }
+  ompl::base::Cost motionCost(const ompl::base::State* from, const ompl::base::State* to) const override {
+    return inner_->motionCost(from, to);
+  }
+  ompl::base::Cost motionCostHeuristic(const ompl::base::State* from, const ompl::base::State* to) const override {
+    return inner_->motionCostHeuristic(from, to);
+  }
+  bool isSatisfied(ompl::base::Cost cost) const override { return inner_->isSatisfied(cost); }
+  bool isCostBetterThan(ompl::base::Cost a, ompl::base::Cost b) const override {
+    return inner_->isCostBetterThan(a, b);
+  }
+  bool isCostEquivalentTo(ompl::base::Cost a, ompl::base::Cost b) const override {
+    return inner_->isCostEquivalentTo(a, b);
+  }
+  bool isFinite(ompl::base::Cost cost) const override { return inner_->isFinite(cost); }
+  ompl::base::Cost betterCost(ompl::base::Cost a, ompl::base::Cost b) const override {
+    return inner_->betterCost(a, b);
+  }
+  ompl::base::Cost combineCosts(ompl::base::Cost a, ompl::base::Cost b) const override {
+    return inner_->combineCosts(a, b);
+  }
+  ompl::base::Cost identityCost() const override { return inner_->identityCost(); }
+  ompl::base::Cost infiniteCost() const override { return inner_->infiniteCost(); }
+  ompl::base::Cost initialCost(const ompl::base::State* state) const override { return inner_->initialCost(state); }
+  ompl::base::Cost terminalCost(const ompl::base::State* state) const override { return inner_->terminalCost(state); }
+  bool isSymmetric() const override { return inner_->isSymmetric(); }
+  ompl::base::Cost averageStateCost(unsigned int states) const override { return inner_->averageStateCost(states); }
+  ompl::base::InformedSamplerPtr allocInformedStateSampler(const ompl::base::ProblemDefinitionPtr& problem,
+                                                           unsigned int attempts) const override;
+  void print(std::ostream& out) const override { inner_->print(out); }
+
+ private:
+  ompl::base::OptimizationObjectivePtr inner_;
+  std::shared_ptr<GuidedSource> source_;
+  bool cost_is_length_;
+};
+
+}  // namespace lrrt

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bindings.hpp"
+#include "lrrt/error.hpp"
+#include "lrrt/predict/grid_predictors.hpp"
+
+namespace lrrt::python {
+
+void bind_grid_predictors(py::module_& module) {
+  py::class_<GivenRegion, RegionPredictor, std::shared_ptr<GivenRegion>>(module, "GivenRegion",
+                                                                         "A region that the caller already has.")
+      .def(py::init([](const DenseArray<float>& probability, float threshold) {
+             if (probability.ndim() != 2) throw RequestError("a region is an (H, W) array of probabilities");
+             return std::make_shared<GivenRegion>(
+                 std::vector<float>(probability.data(), probability.data() + probability.size()), threshold);
+           }),
+           py::arg("probability"), py::arg("threshold") = 0.5F,
+           "(H, W) probabilities or a bool mask, as large as the maps that will be planned on.");
+  py::class_<AStarPredictor, RegionPredictor, std::shared_ptr<AStarPredictor>>(
+      module, "AStarPredictor", "The neighbourhood of the shortest grid path (A*-RRT*).")
+      .def(py::init<double>(), py::arg("radius") = 5.0, "`radius`: half the width of the region, pixels.");
+  py::class_<PotentialFieldPredictor, RegionPredictor, std::shared_ptr<PotentialFieldPredictor>>(
+      module, "PotentialFieldPredictor", "The way that an artificial potential field goes; for comparison.")
+      .def(py::init<double, double>(), py::arg("radius") = 5.0, py::arg("reach") = 8.0,
+           "`radius`: half the width of the region; `reach`: distance up to which obstacles push; both in pixels.");
+}
+
+}  // namespace lrrt::python

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "lrrt/ompl/guide.hpp"
+
+#include <ompl/base/ProblemDefinition.h>
+#include <ompl/base/SpaceInformation.h>
+#include <ompl/base/goals/GoalSampleableRegion.h>
+#include <ompl/base/goals/GoalState.h>
+#include <ompl/base/objectives/PathLengthOptimizationObjective.h>
+
+#include <limits>
+#include <map>
+#include <sstream>
+#include <utility>
+
+#include "lrrt/error.hpp"
+#include "lrrt/ompl/guided_objective.hpp"
+#include "lrrt/ompl/suitable_range.hpp"
+
+namespace lrrt {
+namespace {
+
+namespace ob = ompl::base;
+
+const std::map<std::string, Growth>& growths() {
+  static const std::map<std::string, Growth> table = {
+      {"RRT", Growth::one_tree},
+      {"RRTConnect", Growth::two_trees},
+      {"RRTstar", Growth::one_tree},
+      {"RRTsharp", Growth::one_tree},
+      {"RRTXstatic", Growth::one_tree},
+      {"LBTRRT", Growth::one_tree},
+      {"TRRT", Growth::one_tree},
+      {"BiTRRT", Growth::two_trees},
+      {"InformedRRTstar", Growth::one_tree},
+      {"SORRTstar", Growth::batch},
+      {"BITstar", Growth::batch},
+      {"ABITstar", Growth::batch},
+      {"AITstar", Growth::batch},
+      {"FMT", Growth::batch},
+      {"BFMT", Growth::batch},
+      {"PRM", Growth::batch},
+      {"PRMstar", Growth::batch},
+      {"LazyPRM", Growth::batch},
+      {"LazyPRMstar", Growth::batch},
+      {"EST", Growth::one_tree},
+      {"BiEST", Growth::two_trees},
+      {"SST", Growth::one_tree},
+  };
+  return table;
+}
+
+/// OMPL has names of its own for a few: "RRT#", and "k…" for the versions that connect to the k nearest.
+std::string plain_name(const std::string& name) {
+  if (name == "RRT#") return "RRTsharp";
+  return name.size() > 1 && name[0] == 'k' && growths().count(name.substr(1)) != 0 ? name.substr(1) : name;
+}
+
+Pixel free_pixel(const OccupancyMap& map, const Eigen::Vector2d& point, const char* what) {
+  const Pixel pixel = OccupancyMap::pixel_of(map.to_pixel(point));
+  if (map.is_free(pixel)) return pixel;
+  std::ostringstream text;
+  text << "the planner's " << what << " (" << point.x() << ", " << point.y()
+       << ") does not lie on a free pixel of the map: give the map in which the planner's reference point moves";
+  throw RequestError(text.str());
+}
+
+/// A state of the goal: the goal itself, or a sample of its region.
+Eigen::Vector2d goal_position(const ob::ProblemDefinition& problem, const MapProjection& projection) {
+  const auto* goal = dynamic_cast<const ob::GoalSampleableRegion*>(problem.getGoal().get());
+  if (goal == nullptr || goal->maxSampleCount() == 0) {
+    throw RequestError("the planner's goal cannot be sampled: guide() needs a goal state or a sampleable region");
+  }
+  const ob::SpaceInformationPtr si = problem.getSpaceInformation();
+  ob::State* state = si->allocState();
+  goal->sampleGoal(state);
+  const Eigen::Vector2d position = projection.read(state);
+  si->freeState(state);
+  return position;
+}
+
+/// True when a cost bounds the length of the way between the one start and the one goal that there are.
+bool cost_is_length(const ob::ProblemDefinition& problem, const ob::OptimizationObjective& objective) {
+  return dynamic_cast<const ob::PathLengthOptimizationObjective*>(&objective) != nullptr &&
+         problem.getStartStateCount() == 1 && dynamic_cast<const ob::GoalState*>(problem.getGoal().get()) != nullptr;
+}
+
+void check(const ob::Planner& planner) {
+  growth_of(planner.getName());
+  if (!planner.getProblemDefinition() || planner.getProblemDefinition()->getStartStateCount() == 0 ||
+      !planner.getProblemDefinition()->getGoal()) {
+    throw RequestError("planner " + planner.getName() + " has no problem yet: set start and goal, then guide it");
+  }
+  if (planner.isSetup()) {
+    throw RequestError("planner " + planner.getName() +
+                       " is set up already and keeps the samplers it has: guide it before setup()");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> guidable_planners() {
+  std::vector<std::string> names;
+  for (const auto& entry : growths()) names.push_back(entry.first);
+  return names;
+}
+
+Growth growth_of(const std::string& planner) {
+  const auto found = growths().find(plain_name(planner));
+  if (found != growths().end()) return found->second;
+  std::string known;
+  for (const auto& entry : growths()) known += (known.empty() ? "" : ", ") + entry.first;
+  throw RequestError("planner '" + planner + "' cannot be guided; these can: " + known);
+}
+
+MixedSampler make_sampler(const CollisionMap& map, const PromisingRegion& region, const Eigen::Vector2d& start,
+                          const Eigen::Vector2d& goal, Growth growth, const GuideOptions& options) {
+  const OccupancyMap& grid = map.map();
+  const Pixel from = free_pixel(grid, start, "start");
+  const Pixel to = free_pixel(grid, goal, "goal");
+  const PromisingRegion bridged = region.bridged(grid, from, to);
+  std::unique_ptr<SamplingStrategy> guided;
+  if (options.strategy == Strategy::frontier && bridged.connected()) {
+    const double range = options.range > 0.0 ? options.range : suitable_range(map);
+    guided = std::make_unique<FrontierStrategy>(bridged, from, to, FrontierOptions{range / grid.resolution(), growth});
+  } else if (options.strategy != Strategy::uniform && bridged.area() > 0) {
+    guided = std::make_unique<RegionStrategy>(bridged);
+  }
+  return {std::move(guided), UniformStrategy(grid.width(), grid.height()), options.alpha, options.seed};
+}
+
+std::shared_ptr<GuidedSource> guide(ob::Planner& planner, const std::shared_ptr<const CollisionMap>& map,
+                                    const PromisingRegion& region, const GuideOptions& options,
+                                    std::shared_ptr<const MapProjection> projection) {
+  check(planner);
+  if (!projection) projection = std::make_shared<PlaneProjection>();
+  const ob::ProblemDefinition& problem = *planner.getProblemDefinition();
+  return guide(planner, map,
+               make_sampler(*map, region, projection->read(problem.getStartState(0)),
+                            goal_position(problem, *projection), growth_of(planner.getName()), options),
+               projection);
+}
+
+std::shared_ptr<GuidedSource> guide(ob::Planner& planner, const std::shared_ptr<const CollisionMap>& map,
+                                    MixedSampler sampler, std::shared_ptr<const MapProjection> projection) {
+  check(planner);
+  const ob::SpaceInformationPtr si = planner.getSpaceInformation();
+  const ob::ProblemDefinitionPtr problem = planner.getProblemDefinition();
+  const auto source =
+      std::make_shared<GuidedSource>(map, std::move(sampler), projection, projection->read(problem->getStartState(0)),
+                                     goal_position(*problem, *projection));
+  si->getStateSpace()->setStateSamplerAllocator(
+      [source](const ob::StateSpace* space) { return std::make_shared<GuidedStateSampler>(space, source); });
+  si->setValidStateSamplerAllocator([source](const ob::SpaceInformation* information) {
+    return std::make_shared<GuidedValidStateSampler>(information, source);
+  });
+  si->setMotionValidator(std::make_shared<ObservingMotionValidator>(si.get(), si->getMotionValidator(), source));
+  ob::OptimizationObjectivePtr objective = problem->getOptimizationObjective();
+  if (!objective) objective = std::make_shared<ob::PathLengthOptimizationObjective>(si);
+  const bool informed = cost_is_length(*problem, *objective);
+  problem->setOptimizationObjective(std::make_shared<GuidedObjective>(objective, source, informed));
+  problem->setIntermediateSolutionCallback(
+      [source, informed, theirs = problem->getIntermediateSolutionCallback()](
+          const ob::Planner* solver, const std::vector<const ob::State*>& states, const ob::Cost cost) {
+        source->improved(states, informed ? cost.value() : std::numeric_limits<double>::infinity());
+        if (theirs) theirs(solver, states, cost);
+      });
+  return source;
+}
+
+}  // namespace lrrt

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "lrrt/ompl/guided_objective.hpp"
+
+#include <ompl/base/ProblemDefinition.h>
+#include <ompl/base/SpaceInformation.h>
+
+#include <utility>
+
+namespace lrrt {
+
+namespace ob = ompl::base;
+
+GuidedInformedSampler::GuidedInformedSampler(const ob::ProblemDefinitionPtr& problem, unsigned int attempts,
+                                             ob::InformedSamplerPtr inner, std::shared_ptr<GuidedSource> source,
+                                             bool cost_is_length)
+    : ob::InformedSampler(problem, attempts),
+      inner_(std::move(inner)),
+      source_(std::move(source)),
+      cost_is_length_(cost_is_length),
+      other_coordinates_(space_->allocDefaultStateSampler()) {}
+
+bool GuidedInformedSampler::sampleUniform(ob::State* state, const ob::Cost& most) {
+  return guided(state, nullptr, most) || informed(state, nullptr, most) || inner_->sampleUniform(state, most);
+}
+
+bool GuidedInformedSampler::sampleUniform(ob::State* state, const ob::Cost& least, const ob::Cost& most) {
+  return guided(state, &least, most) || informed(state, &least, most) || inner_->sampleUniform(state, least, most);
+}
+
+bool GuidedInformedSampler::fits(const ob::State* state, const ob::Cost* least, const ob::Cost& most) const {
+  if (least == nullptr && !opt_->isFinite(most)) return true;
+  const ob::Cost cost = heuristicSolnCost(state);
+  const bool may_improve = !opt_->isFinite(most) || opt_->isCostBetterThan(cost, most);
+  return may_improve && (least == nullptr || !opt_->isCostBetterThan(cost, *least));
+}
+
+bool GuidedInformedSampler::guided(ob::State* state, const ob::Cost* least, const ob::Cost& most) {
+  const bool wanted = source_->wants_guided();
+  for (unsigned int attempt = 0; wanted && attempt < numIters_; ++attempt) {
+    source_->place_guided(state, *other_coordinates_);
+    if (!fits(state, least, most)) continue;
+    source_->count(true);
+    return true;
+  }
+  source_->count(false);
+  return false;
+}
+
+bool GuidedInformedSampler::informed(ob::State* state, const ob::Cost* least, const ob::Cost& most) {
+  for (unsigned int attempt = 0; cost_is_length_ && attempt < numIters_; ++attempt) {
+    if (!source_->place_informed(state, most.value())) return false;
+    if (fits(state, least, most)) return true;
+  }
+  return false;
+}
+
+GuidedObjective::GuidedObjective(ob::OptimizationObjectivePtr inner, std::shared_ptr<GuidedSource> source,
+                                 bool cost_is_length)
+    : ob::OptimizationObjective(inner->getSpaceInformation()),
+      inner_(std::move(inner)),
+      source_(std::move(source)),
+      cost_is_length_(cost_is_length) {
+  description_ = inner_->getDescription();
+  setCostThreshold(inner_->getCostThreshold());
+  if (inner_->hasCostToGoHeuristic()) {
+    setCostToGoHeuristic(
+        [own = inner_](const ob::State* state, const ob::Goal* goal) { return own->costToGo(state, goal); });
+  }
+}
+
+ob::InformedSamplerPtr GuidedObjective::allocInformedStateSampler(const ob::ProblemDefinitionPtr& problem,
+                                                                  unsigned int attempts) const {
+  return std::make_shared<GuidedInformedSampler>(
+      problem, attempts, inner_->allocInformedStateSampler(problem, attempts), source_, cost_is_length_);
+}
+
+}  // namespace lrrt

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "lrrt/sampling/frontier.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "lrrt/error.hpp"
+
+namespace lrrt {
+namespace {
+
+/// How far the band reaches, in steps of the planner: most extensions end within one step.
+constexpr double steps_ahead = 2.0;
+constexpr double steps_back = 1.0;
+/// A pixel takes part when the way over it is longer than the best one by at most this share and so many steps.
+constexpr double detour_share = 0.05;
+constexpr double detour_steps = 4.0;
+/// Draws without progress after which the band has doubled, and after which the wish for guided draws has halved.
+constexpr double patience = 64.0;
+constexpr double trust = 512.0;
+constexpr double batch_trust = 8192.0;
+constexpr double least_confidence = 0.1;
+constexpr double most_doublings = 30.0;
+/// Once a path is known: share of the draws around its corners, and tries for a pixel that could shorten it.
+constexpr double corner_share = 0.5;
+constexpr int most_tries = 8;
+constexpr double tau = 6.283185307179586;
+
+Eigen::Vector2d point_in(Pixel pixel, Random& random) {
+  const double x = pixel.c + random.uniform();
+  return {x, pixel.r + random.uniform()};
+}
+
+}  // namespace
+
+FrontierStrategy::Front FrontierStrategy::make_front(const Geodesic& to_other, const Geodesic& from_own, Pixel root,
+                                                     std::int32_t most_detour, int width, int height) {
+  Front front;
+  front.to_other.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), Geodesic::unreached);
+  const std::int32_t whole = to_other.at(root);
+  front.horizon = whole;
+  for (const Pixel p : to_other.reached()) {
+    const std::int32_t distance = to_other.at(p);
+    front.to_other[static_cast<std::size_t>(p.r) * static_cast<std::size_t>(width) + static_cast<std::size_t>(p.c)] =
+        distance;
+    const std::int32_t behind = from_own.at(p);
+    if (behind == Geodesic::unreached || distance + behind - whole > most_detour) continue;
+    const auto whole_pixels = static_cast<std::size_t>(distance * Geodesic::unit);
+    while (front.first.size() <= whole_pixels) front.first.push_back(front.pixels.size());
+    front.pixels.push_back(p);
+  }
+  return front;
+}
+
+FrontierStrategy::FrontierStrategy(const PromisingRegion& region, Pixel start, Pixel goal,
+                                   const FrontierOptions& options)
+    : width_(region.width()),
+      height_(region.height()),
+      step_(options.step),
+      growth_(options.growth),
+      trees_(growth_ == Growth::two_trees ? 2 : 1),
+      tree_of_(region.mask().size(), 0) {
+  if (!(step_ > 0.0))
+    throw RequestError("a planner's step of " + std::to_string(step_) + " pixels: expected more than 0");
+  const Geodesic to_goal(region.mask(), width_, height_, goal);
+  const Geodesic to_start(region.mask(), width_, height_, start);
+  const std::int32_t whole = to_goal.at(start);
+  if (whole == Geodesic::unreached) {
+    throw RequestError("the promising region does not join start and goal: bridge its gaps first");
+  }
+  const auto most_detour = static_cast<std::int32_t>(detour_share * whole + detour_steps * step_ / Geodesic::unit);
+  fronts_[0] = make_front(to_goal, to_start, start, most_detour, width_, height_);
+  if (trees_ == 2) fronts_[1] = make_front(to_start, to_goal, goal, most_detour, width_, height_);
+  tree_of_[index(start)] |= 1U;
+  tree_of_[index(goal)] |= 2U;
+}
+
+Eigen::Vector2d FrontierStrategy::draw(Random& random) {
+  ++stalled_;
+  return path_.empty() ? draw_ahead(random) : draw_on_path(random);
+}
+
+Eigen::Vector2d FrontierStrategy::draw_ahead(Random& random) {
+  const Front& front = fronts_[turn_];
+  if (growth_ == Growth::batch) return point_in(front.pixels[random.index(front.pixels.size())], random);
+  turn_ = (turn_ + 1) % trees_;
+  const double reach = step_ * std::exp2(std::min(static_cast<double>(stalled_) / patience, most_doublings));
+  const double horizon = front.horizon * Geodesic::unit;
+  const auto first_from = [&](double distance) {
+    if (distance >= static_cast<double>(front.first.size())) return front.pixels.size();
+    return distance <= 0.0 ? 0 : front.first[static_cast<std::size_t>(distance)];
+  };
+  const std::size_t low = std::min(first_from(horizon - steps_ahead * reach), front.pixels.size() - 1);
+  const std::size_t high = std::max(low + 1, first_from(horizon + steps_back * reach + 1.0));
+  return point_in(front.pixels[low + random.index(high - low)], random);
+}
+
+Eigen::Vector2d FrontierStrategy::draw_on_path(Random& random) {
+  if (random.uniform() < corner_share) {
+    const Eigen::Vector2d corner = path_[random.index(path_.size())];
+    const double radius = step_ * random.uniform();
+    const double angle = random.uniform(0.0, tau);
+    return corner + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+  }
+  Eigen::Vector2d point = Eigen::Vector2d::Zero();
+  for (int i = 0; i < most_tries; ++i) {
+    point = point_in(fronts_[0].pixels[random.index(fronts_[0].pixels.size())], random);
+    if ((point - path_.front()).norm() + (point - path_.back()).norm() < length_) break;
+  }
+  return point;
+}
+
+bool FrontierStrategy::contains(const Eigen::Vector2d& point) const {
+  const Pixel p = OccupancyMap::pixel_of(point);
+  return inside(p) && fronts_[0].to_other[index(p)] != Geodesic::unreached;
+}
+
+bool FrontierStrategy::improved(const std::vector<Eigen::Vector2d>& path, double length) {
+  path_ = path;
+  length_ = length;
+  stalled_ = 0;
+  return true;
+}
+
+void FrontierStrategy::connected(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  const Pixel first = OccupancyMap::pixel_of(from);
+  const Pixel last = OccupancyMap::pixel_of(to);
+  if (!inside(first) || !inside(last)) return;
+  // A tree from the goal checks its motions backwards, so the pixel that is known may be either end.
+  const bool forwards = tree_of_[index(first)] != 0;
+  const Pixel known = forwards ? first : last;
+  const Pixel fresh = forwards ? last : first;
+  const std::uint8_t trees = tree_of_[index(known)];
+  if (trees == 0) return;
+  tree_of_[index(fresh)] = static_cast<std::uint8_t>(tree_of_[index(fresh)] | trees);
+  if (!path_.empty()) return;
+  for (std::size_t tree = 0; tree < trees_; ++tree) {
+    if ((trees >> tree & 1U) == 0) continue;
+    const std::int32_t distance = fronts_[tree].to_other[index(fresh)];
+    if (distance == Geodesic::unreached || distance >= fronts_[tree].horizon) continue;
+    fronts_[tree].horizon = distance;
+    stalled_ = 0;
+  }
+}
+
+double FrontierStrategy::confidence() const {
+  const double patient = growth_ == Growth::batch ? batch_trust : trust;
+  return std::max(least_confidence, std::exp2(-static_cast<double>(stalled_) / patient));
+}
+
+}  // namespace lrrt

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <string>
+
+#include "campaign.hpp"
+#include "ompl_log.hpp"
+#include "replay.hpp"
+#include "result_file.hpp"
+#include "runner.hpp"
+
+namespace lrrt::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* unguided = R"(
+kind: plan
+title: two words
+maps:
+  - {kind: maze, level: 7, pixels: 64, count: 2}
+queries:
+  - {kind: farthest}
+planners:
+  - {name: RRT*, planner: RRTstar, strategy: uniform}
+  - {name: RRT-Connect, planner: RRTConnect, strategy: uniform}
+runs: 3
+)";
+
+/// A folder of its own for every test.
+class Results : public testing::Test {
+ protected:
+  void SetUp() override {
+    const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = fs::temp_directory_path() / ("lrrt_bench_" + test + "_" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  fs::path file() const { return folder_ / "result.json"; }
+  fs::path part() const { return folder_ / "result.json.part"; }
+
+  static Json document_of(const Suite& suite, const IterationLimits& limits = {}) {
+    const Campaign campaign = plan_campaign(suite, {}, limits);
+    ResultFile results({}, header_of(suite, campaign));
+    run_jobs(campaign.jobs, {2, false, {}}, results);
+    std::vector<std::string> ids;
+    for (const Job& job : campaign.jobs) ids.push_back(job.id);
+    return results.document(ids);
+  }
+
+ private:
+  fs::path folder_;
+};
+
+std::vector<Job> counting_jobs(int count, std::atomic<int>& runs, const std::function<void(int)>& before = nullptr) {
+  std::vector<Job> jobs;
+  for (int i = 0; i < count; ++i) {
+    jobs.push_back({"job " + std::to_string(i), "", [&runs, before, i] {
+                      if (before) before(i);
+                      ++runs;
+                      return Json{{"value", i}};
+                    }});
+  }
+  return jobs;
+}
+
+TEST_F(Results, AnInterruptedRunGoesOnWhereItStopped) {
+  std::atomic<int> runs{0};
+  CancelToken cancel;
+  {
+    ResultFile results(file(), {{"suite", 1}, {"started", "then"}});
+    const auto jobs = counting_jobs(10, runs, [&](int i) {
+      if (i == 4) cancel.cancel();
+    });
+    EXPECT_FALSE(run_jobs(jobs, {1, false, cancel}, results));
+  }
+  EXPECT_TRUE(fs::exists(part()));
+  EXPECT_FALSE(fs::exists(file()));
+  std::ofstream(part(), std::ios::app) << "{\"id\": \"job 9\", \"val";  // killed while it wrote
+
+  runs = 0;
+  ResultFile results(file(), {{"suite", 1}, {"started", "now"}});
+  EXPECT_EQ(results.size(), 4U);
+  EXPECT_TRUE(run_jobs(counting_jobs(10, runs), {3, false, {}}, results));
+  EXPECT_EQ(runs, 6);
+  results.finish(results.document({"job 0", "job 9"}));
+  EXPECT_FALSE(fs::exists(part()));
+  const Json document = read_result(file());
+  EXPECT_EQ(document.at("started"), "then");
+  EXPECT_EQ(document.at("rows").at(1).at("value"), 9);
+}
+
+TEST_F(Results, AnotherRunsPartIsRefused) {
+  { const ResultFile results(file(), {{"suite", 1}}); }
+  EXPECT_THROW(ResultFile(file(), {{"suite", 2}}), ResultError);
+  EXPECT_THROW(ResultFile("/nowhere/at/all.json", {{"suite", 2}}), ResultError);
+}
+
+TEST_F(Results, AJobsErrorComesThroughAndKeepsTheRest) {
+  std::atomic<int> runs{0};
+  ResultFile results(file(), {{"suite", 1}});
+  const auto jobs = counting_jobs(5, runs, [](int i) {
+    if (i == 2) throw MapError("broken");
+  });
+  EXPECT_THROW(run_jobs(jobs, {1, false, {}}, results), MapError);
+  EXPECT_EQ(results.size(), 2U);
+}
+
+TEST_F(Results, AReplayIsTheSameAndNoticesWhatIsNot) {
+  const Suite suite = parse_suite(unguided, "my.yaml", ".");
+  const Json before = document_of(suite);
+  const Suite again = replayed_suite(before, "result.json");
+  Json after = document_of(again, replay_limits(before));
+  EXPECT_TRUE(compare_replay(before, after).same) << compare_replay(before, after).text;
+  after["rows"][0]["nodes"] = 1;
+  EXPECT_FALSE(compare_replay(before, after).same);
+  Json changed = before.at("inputs");
+  changed["maps"].begin().value() = "0";
+  EXPECT_THROW(check_inputs(before, changed, "result.json"), ResultError);
+}
+
+TEST_F(Results, ARunThatTheClockEndedIsReplayedByItsIterations) {
+  Suite suite = parse_suite(unguided, "my.yaml", ".");
+  auto& body = std::get<PlanSuite>(suite.body);
+  body.rows.resize(1);
+  body.rows[0].stop = "limit";
+  body.rows[0].options.stop = Stop::limit;
+  body.rows[0].options.time_limit = 0.05;
+  body.runs = 1;
+  const Json before = document_of(suite);
+  EXPECT_EQ(replay_limits(before).size(), before.at("rows").size());
+  const Json after = document_of(replayed_suite(before, "result.json"), replay_limits(before));
+  EXPECT_TRUE(compare_replay(before, after).same) << compare_replay(before, after).text;
+}
+
+TEST_F(Results, RowsHoldWhatIsMeasured) {
+  const Json document = document_of(parse_suite(unguided, "my.yaml", "."));
+  for (const Json& row : document.at("rows")) {
+    EXPECT_EQ(row.at("status"), "solved");
+    EXPECT_GE(row.at("length").get<double>(), row.at("optimum").get<double>() - 1e-6);
+    EXPECT_GE(row.at("first_ms").get<double>(), row.at("search_ms").get<double>());
+    EXPECT_LE(row.at("search_ms").get<double>(), row.at("times_ms").at("plan").get<double>());
+  }
+  const std::string csv = plan_csv(document);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 12);
+  EXPECT_NE(plan_report(document).find("gain over RRT*"), std::string::npos);
+}
+
+/// Reads a log as OMPL's script does: line by line, counts first.
+class LogReader {
+ public:
+  explicit LogReader(const std::string& text) : text_(text) {}
+
+  std::string line() {
+    std::string result;
+    EXPECT_TRUE(std::getline(text_, result));
+    return result;
+  }
+  void expect(const std::string& pattern) {
+    const std::string found = line();
+    EXPECT_TRUE(std::regex_match(found, std::regex(pattern))) << found << " is no " << pattern;
+  }
+  /// A line "N word …".
+  int count(const std::string& words) {
+    const std::string found = line();
+    EXPECT_TRUE(std::regex_match(found, std::regex("\\d+ " + words))) << found;
+    return std::stoi(found);
+  }
+  void block() {
+    EXPECT_EQ(line(), "<<<|");
+    while (line() != "|>>>") {
+    }
+  }
+  bool at_end() { return text_.peek() == std::istringstream::traits_type::eof(); }
+
+ private:
+  std::istringstream text_;
+};
+
+void read_planner(LogReader& log, int expected_runs) {
+  log.line();  // name
+  const int settings = log.count("common properties");
+  for (int i = 0; i < settings; ++i) log.expect("\\w+ = .*");
+  const int properties = log.count("properties for each run");
+  for (int i = 0; i < properties; ++i) log.expect("[a-z ]+ (BOOLEAN|ENUM|INTEGER|REAL)");
+  EXPECT_EQ(log.count("runs"), expected_runs);
+  const std::string value = "(-?[0-9.]+(e[+-]?\\d+)?)?";
+  for (int i = 0; i < expected_runs; ++i) log.expect("(" + value + "; ){" + std::to_string(properties) + "}");
+  const int progress = log.count("progress properties for each run");
+  for (int i = 0; i < progress; ++i) log.expect("[a-z ]+ (INTEGER|REAL)");
+  EXPECT_EQ(log.count("runs"), expected_runs);
+  for (int i = 0; i < expected_runs; ++i) log.expect("((" + value + ",){" + std::to_string(progress) + "};)*");
+  EXPECT_EQ(log.line(), ".");
+}
+
+TEST_F(Results, TheOmplLogHasOmplsGrammar) {
+  LogReader log(ompl_log(document_of(parse_suite(unguided, "my.yaml", "."))));
+  log.expect("OMPL version \\d+\\.\\d+\\.\\d+");
+  log.expect("Experiment two_words");
+  log.expect("Running on \\S+");
+  log.expect("Starting at \\d{4}-\\d\\d-\\d\\d \\d\\d:\\d\\d:\\d\\d");
+  log.block();
+  log.block();
+  log.expect("\\d+ is the random seed");
+  log.expect("[0-9.]+ seconds per run");
+  log.expect("[0-9.]+ MB per run");
+  log.expect("6 runs per planner");
+  log.expect("[0-9.e-]+ seconds spent to collect the data");
+  EXPECT_EQ(log.count("enum type"), 1);
+  log.expect("status(\\|[a-z_]+)+");
+  const int planners = log.count("planners");
+  EXPECT_EQ(planners, 2);
+  for (int i = 0; i < planners; ++i) read_planner(log, 6);
+  EXPECT_TRUE(log.at_end());
+}
+
+}  // namespace
+}  // namespace lrrt::bench

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "problems.hpp"
+#include "suite.hpp"
+
+namespace lrrt::bench {
+namespace {
+
+constexpr const char* small = R"(
+kind: plan
+maps:
+  - {kind: maze, level: 9, pixels: 64, count: 2}
+queries:
+  - {kind: farthest}
+  - {kind: random, count: 3, apart: 0.3}
+planners:
+  - {name: plain, planner: RRTstar, strategy: uniform}
+  - {name: guided, planner: RRTstar, strategy: region, alpha: [0.5, 0.8]}
+)";
+
+std::string error_of(const std::string& text) {
+  try {
+    parse_suite(text, "my.yaml", ".");
+  } catch (const SuiteError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// The small suite with one text in it replaced.
+std::string with(const std::string& from, const std::string& to) {
+  std::string text = small;
+  return text.replace(text.find(from), from.size(), to);
+}
+
+TEST(Suite, ListsMakeRows) {
+  const auto suite = std::get<PlanSuite>(parse_suite(small, "my.yaml", ".").body);
+  ASSERT_EQ(suite.rows.size(), 3U);
+  EXPECT_EQ(suite.rows[0].name, "plain");
+  EXPECT_EQ(suite.rows[1].name, "guided, α 0.5");
+  EXPECT_EQ(suite.rows[2].name, "guided, α 0.8");
+  EXPECT_DOUBLE_EQ(suite.rows[2].options.alpha, 0.8);
+  EXPECT_EQ(suite.baseline, "plain");
+}
+
+TEST(Suite, ErrorsNameFileLineKeyAndExpectation) {
+  EXPECT_EQ(error_of(with("level: 9", "levle: 9")),
+            "my.yaml:4: unknown key 'maps[0].levle': expected one of kind, name, level, algorithm, count, pixels, "
+            "braid, seed, queries");
+  EXPECT_EQ(error_of(with("level: 9", "level: 8")),
+            "my.yaml:4: maps[0].level is 8: expected an odd number of blocks from 5 on");
+  EXPECT_EQ(error_of(with("0.5, 0.8", "0.5, 1.8")),
+            "my.yaml:10: planners[1].alpha is [0.5, 1.8]: expected a share from 0 to 1");
+  EXPECT_NE(error_of(with("RRTstar", "RRTsta")).find("unknown planner 'RRTsta'"), std::string::npos);
+  EXPECT_NE(error_of(with("region", "regoin")).find("unknown strategy 'regoin'"), std::string::npos);
+  EXPECT_NE(error_of(std::string(small) + "baseline: other\n").find("expected one of plain, guided"),
+            std::string::npos);
+  EXPECT_NE(error_of("kind: [").find("not YAML"), std::string::npos);
+  EXPECT_NE(error_of("maps: 3").find("kind is missing"), std::string::npos);
+  EXPECT_NE(error_of("- 1").find("expected lines 'key: value'"), std::string::npos);
+}
+
+TEST(Suite, JsonReadsBackTheSame) {
+  for (const std::string& name : shipped_suites()) {
+    const Suite suite = load_suite(name);
+    const Json json = to_json(suite);
+    EXPECT_EQ(to_json(parse_suite(dumped(json, 1), name, suite.folder)), json) << name;
+  }
+}
+
+TEST(Suite, OverridesReachEveryRow) {
+  Suite suite = parse_suite(small, "my.yaml", ".");
+  apply({7, 99, 1.5}, suite);
+  const auto& body = std::get<PlanSuite>(suite.body);
+  EXPECT_EQ(body.runs, 7);
+  EXPECT_EQ(body.seed, 99U);
+  for (const PlanRow& row : body.rows) EXPECT_DOUBLE_EQ(row.options.time_limit, 1.5);
+}
+
+TEST(Problems, QueriesAreFreeJoinedAndApart) {
+  const Suite suite = parse_suite(small, "my.yaml", ".");
+  const std::vector<Problem> problems = make_problems(suite);
+  ASSERT_EQ(problems.size(), 8U);
+  for (const Problem& p : problems) {
+    EXPECT_TRUE(p.map->is_free(OccupancyMap::pixel_of(p.start)));
+    EXPECT_TRUE(p.map->is_free(OccupancyMap::pixel_of(p.goal)));
+    EXPECT_GT((p.goal - p.start).norm(), 10.0) << p.query;
+  }
+  const std::vector<Problem> again = make_problems(suite);
+  for (std::size_t i = 0; i < problems.size(); ++i) {
+    EXPECT_EQ(problems[i].start, again[i].start);
+    EXPECT_EQ(map_checksum(*problems[i].map), map_checksum(*again[i].map));
+  }
+}
+
+}  // namespace
+}  // namespace lrrt::bench
