@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The everyday commands. Each does the set-up that it needs, skips what is up to date, and can be interrupted and
-# run again. Variables: PRESET (release, debug, asan, ci), JOBS, PYTHON, ONNXRUNTIME_ROOT, CONFIG, MODEL.
+# run again. Variables: PRESET (release, debug, asan, ci), JOBS, PYTHON, ONNXRUNTIME_ROOT, CONFIG, MODEL, SUITE,
+# BENCH_OPTIONS.
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 SHELL := /bin/bash
@@ -8,6 +9,8 @@ SHELL := /bin/bash
 PRESET ?= release
 CONFIG ?= training/configs/default.yaml
 MODEL ?= models/default.onnx
+SUITE ?= smoke
+BENCH_OPTIONS ?=
 JOBS ?= $(shell nproc)
 export JOBS
 python := .venv/bin/python
@@ -55,6 +58,10 @@ train: setup-training ## Train a model: CONFIG=training/configs/default.yaml
 .PHONY: evaluate
 evaluate: setup-training ## Measure a model on the test mazes: MODEL=models/default.onnx
 	@cd training && $(abspath $(python)) -m lrrt_training evaluate $(abspath $(MODEL))
+
+.PHONY: bench
+bench: build ## Measure: SUITE=smoke, predict, paper or a .yaml file; BENCH_OPTIONS="--json paper.json"
+	@build/$(PRESET)/bench/lrrt_bench --suite $(SUITE) $(BENCH_OPTIONS)
 
 .PHONY: lint
 lint: install-python ## Check formatting, style and types

@@ -4,7 +4,7 @@
     .venv/bin/python bench/compare_mazes.py --level 35 --mazes 50
 
 The mazes are perfect ones of the training package's test split, drawn on 256×256 pixels;
-start and goal are the two ends of the longest path. Both planners stop at their first path.
+start and goal are the two ends of the longest path. Every planner stops at its first path.
 The time of L-RRT* counts the prediction.
 """
 
@@ -29,6 +29,7 @@ import lrrt
 from lrrt_training import mazes
 
 PICTURE_SIDE = 256
+STRATEGIES = {"RRT*": "uniform", "L-RRT*, region": "region", "L-RRT*, frontier": "frontier"}
 TEST_SPLIT = 2  # the training package numbers its splits: train 0, evaluation 1, test 2
 
 
@@ -79,14 +80,15 @@ def problem(level: int, index: int) -> tuple[lrrt.OccupancyMap, tuple[float, flo
 
 def run(name: str, maze: int, level: int, predictor: lrrt.OnnxPredictor, args: argparse.Namespace) -> Run:
     """One plan; the seed is the maze's number."""
-    guided = name != "RRT*"
+    strategy = STRATEGIES[name]
+    guided = strategy != "uniform"
     map_, start, goal = problem(level, maze)
     result = lrrt.plan(
         map_,
         start,
         goal,
         planner="RRTstar",
-        strategy="region" if guided else "uniform",
+        strategy=strategy,
         alpha=args.alpha,
         predictor=predictor if guided else None,
         stop="first",
@@ -123,13 +125,12 @@ def table(runs: list[Run], title: str) -> Table:
             median, mean, deviation = statistics.median(values), statistics.mean(values), statistics.stdev(values)
             cells.append(f"{median:,.0f} ({mean:,.0f} ± {deviation:,.0f})")
         result.add_row(name, f"{sum(r.solved for r in rows)}/{len(rows)}", *cells)
-    plain, guided = by_name.values()
-    pairs = [(a, b) for a, b in zip(plain, guided) if a.solved and b.solved]
-    ratios = (
-        [f"{statistics.median(getattr(a, f) / getattr(b, f) for a, b in pairs):.2f}×" for f in figures] if pairs else []
-    )
     result.add_section()
-    result.add_row("ratio by maze", str(len(pairs)), *(f"median {r}" for r in ratios))
+    plain, *others = by_name
+    for name in others:
+        pairs = [(a, b) for a, b in zip(by_name[plain], by_name[name]) if a.solved and b.solved]
+        ratios = [statistics.median(getattr(a, f) / getattr(b, f) for a, b in pairs) for f in figures] if pairs else []
+        result.add_row(f"{plain} / {name}", str(len(pairs)), *(f"median {r:.2f}×" for r in ratios))
     return result
 
 
@@ -145,16 +146,15 @@ def main() -> None:
     args = parser.parse_args()
 
     predictor = lrrt.OnnxPredictor(args.model)
-    guided = f"L-RRT* (α = {args.alpha:g})"
     runs: list[Run] = []
     connected = 0
     for maze in track(range(args.mazes), description=f"{args.level}×{args.level} mazes"):
         map_, start, goal = problem(args.level, maze)
         connected += predictor.predict(map_, start, goal).connected
-        runs += [run(name, maze, args.level, predictor, args) for name in ("RRT*", guided)]
+        runs += [run(name, maze, args.level, predictor, args) for name in STRATEGIES]
     console = Console(width=150)
     console.print(
-        table(runs, f"First path in {args.mazes} perfect mazes of {args.level}×{args.level} blocks, 256×256 pixels")
+        table(runs, f"First path in {args.mazes} perfect mazes of {args.level}×{args.level} blocks, 256×256 pixels, α = {args.alpha:g}")
     )
     console.print(f"The predicted region joins start and goal by itself in {connected} of {args.mazes} mazes.")
     console.print(f"{os.cpu_count()} cores, {platform.machine()}")

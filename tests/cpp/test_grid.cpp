@@ -8,6 +8,7 @@
 
 #include "lrrt/error.hpp"
 #include "lrrt/map/components.hpp"
+#include "lrrt/map/flood.hpp"
 #include "lrrt/map/shortest_path.hpp"
 #include "lrrt/region/geodesic.hpp"
 #include "support.hpp"
@@ -31,6 +32,32 @@ TEST(Components, EqualAFloodFill) {
     }
     EXPECT_EQ(components.area(components.label(from)), area);
   }
+}
+
+TEST(Flood, EqualsTheIndependentFloodFill) {
+  Random random(25);
+  for (int i = 0; i < 80; ++i) {
+    const OccupancyMap map = test::random_map(random, 1, 40);
+    const Pixel from = OccupancyMap::pixel_of(test::random_free_point(map, random));
+    const std::vector<std::uint8_t> expected = test::flood(map, from);
+    const Flood flood(map.free_mask(), map.width(), map.height(), from);
+    int left = map.width();
+    int bottom = 0;
+    for (int r = 0; r < map.height(); ++r) {
+      for (int c = 0; c < map.width(); ++c) {
+        const bool reached = expected[map.index({c, r})] != 0;
+        ASSERT_EQ(flood.reached({c, r}), reached);
+        if (reached) left = std::min(left, c);
+        if (reached) bottom = std::max(bottom, r);
+      }
+    }
+    EXPECT_EQ(flood.box().c, left);
+    EXPECT_EQ(flood.box().r + flood.box().height - 1, bottom);
+    EXPECT_FALSE(flood.reached({-1, 0}));
+  }
+  const OccupancyMap wall = test::map_from_rows({"#."});
+  EXPECT_FALSE(Flood(wall.free_mask(), 2, 1, {0, 0}).reached({0, 0}));
+  EXPECT_FALSE(Flood(wall.free_mask(), 2, 1, {5, 5}).reached({1, 0}));
 }
 
 TEST(Components, DiagonalNeighboursAreNotJoined) {

@@ -89,6 +89,59 @@ TEST(PromisingRegion, ABridgeTakesTheShortestGap) {
   EXPECT_TRUE(whole.connected());
 }
 
+/// The highest threshold at which start and goal are joined, by trying all there are.
+float sinking_threshold(const OccupancyMap& map, const std::vector<float>& probability, Pixel start, Pixel goal) {
+  for (int step = 255; step >= 0; --step) {
+    std::vector<Cell> cells = map.cells();
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      const bool end = k == map.index(start) || k == map.index(goal);
+      if (!end && static_cast<int>(probability[k] * 256.0F) < step) cells[k] = Cell::occupied;
+    }
+    if (test::flood(map.with_cells(cells), start)[map.index(goal)] != 0) return static_cast<float>(step) / 256.0F;
+  }
+  return -1.0F;
+}
+
+TEST(PromisingRegion, ALinkIsTheWayOfASinkingThreshold) {
+  Random random(42);
+  int linked = 0;
+  for (int i = 0; i < 60; ++i) {
+    const OccupancyMap map = test::random_map(random, 3, 20);
+    const Pixel start = OccupancyMap::pixel_of(test::random_free_point(map, random));
+    const Pixel goal = OccupancyMap::pixel_of(test::random_free_point(map, random));
+    std::vector<float> probability(map.size());
+    for (float& p : probability) p = static_cast<float>(random.uniform(0.0, 0.6));
+    const PromisingRegion region(map, probability, start, goal);
+    const PromisingRegion result = region.linked(map, start, goal, 0.0F, 0);
+    const float threshold = sinking_threshold(map, probability, start, goal);
+    EXPECT_EQ(result.connected(), region.connected() || (threshold >= 0.0F && start != goal));
+    EXPECT_EQ(result.area(), region.area() + result.link_area());
+    for (int r = 0; r < map.height(); ++r) {
+      for (int c = 0; c < map.width(); ++c) {
+        const std::size_t k = map.index({c, r});
+        ASSERT_GE(result.mask()[k], region.mask()[k]);
+        if (result.mask()[k] == region.mask()[k]) continue;
+        ASSERT_TRUE(map.is_free({c, r}));
+        const bool end = Pixel{c, r} == start || Pixel{c, r} == goal;
+        EXPECT_TRUE(end || static_cast<int>(probability[k] * 256.0F) >= static_cast<int>(threshold * 256.0F));
+      }
+    }
+    linked += static_cast<int>(result.link_area() > 0);
+  }
+  EXPECT_GT(linked, 10);
+}
+
+TEST(PromisingRegion, NothingBelowTheLowestProbabilityIsLinked) {
+  const OccupancyMap map = test::map_from_rows({"....."});
+  const PromisingRegion region(map, {0.9F, 0.3F, 0.1F, 0.3F, 0.9F}, {0, 0}, {4, 0});
+  EXPECT_FALSE(region.linked(map, {0, 0}, {4, 0}, 0.2F).connected());
+  EXPECT_EQ(region.linked(map, {0, 0}, {4, 0}, 0.2F).link_area(), 0U);
+  EXPECT_TRUE(region.linked(map, {0, 0}, {4, 0}, 0.1F).connected());
+  EXPECT_THROW(region.linked(map, {0, 0}, {4, 0}, 1.5F), RequestError);
+  EXPECT_THROW(region.linked(map, {0, 0}, {4, 0}, 0.1F, -1), RequestError);
+  EXPECT_THROW(region.linked(test::map_from_rows({"."}), {0, 0}, {0, 0}, 0.1F), RequestError);
+}
+
 TEST(PromisingRegion, SizesAndThresholdsAreChecked) {
   const OccupancyMap map = test::map_from_rows({".."});
   EXPECT_THROW(PromisingRegion(map, {1.0F}, {0, 0}, {1, 0}), RequestError);

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "command_line.hpp"
+
+#include <algorithm>
+#include <iostream>
+#include <thread>
+
+#include "campaign.hpp"
+#include "machine.hpp"
+#include "ompl_log.hpp"
+#include "replay.hpp"
+#include "table.hpp"
+
+namespace lrrt::bench {
+namespace {
+
+bool is_plan(const Suite& suite) {
+  return std::holds_alternative<PlanSuite>(suite.body);
+}
+
+/// What makes times worth less; said before the run, so that it can be put off.
+void warn(const Suite& suite, int jobs) {
+  const auto say = [](const std::string& text) { std::cerr << "note: " << text << '\n'; };
+  const double load = load_average();
+  const unsigned cores = std::thread::hardware_concurrency();
+  if (load > 0.5 * cores) {
+    say("the machine is busy (load " + fixed_number(load, 1) + " on " + std::to_string(cores) +
+        " cores): times will be long and unsteady; iterations and nodes are not touched");
+  }
+  if (std::string(LRRT_BENCH_BUILD) != "Release") {
+    say("this is a build of type '" LRRT_BENCH_BUILD "': times say little; build with -DCMAKE_BUILD_TYPE=Release");
+  }
+  if (jobs > 1 && is_plan(suite)) say("--jobs above 1 shares caches and cores: compare iterations rather than times");
+}
+
+void write_outputs(const Request& request, const Suite& suite, const Json& document) {
+  if (!request.csv.empty()) write_file(request.csv, is_plan(suite) ? plan_csv(document) : predict_csv(document));
+  if (!request.ompl_log.empty()) write_file(request.ompl_log, ompl_log(document));
+}
+
+void check_outputs(const Request& request, const Suite& suite) {
+  if (!request.ompl_log.empty() && !is_plan(suite)) {
+    throw SuiteError("--ompl-log: the suite predicts and plans nothing; expected a suite of kind 'plan'");
+  }
+}
+
+Outcome interrupted(const Request& request, const ResultFile& results, std::size_t jobs) {
+  std::cerr << "interrupted after " << results.size() << " of " << jobs << " rows";
+  if (request.json.empty()) {
+    std::cerr << ", which are lost; with --json FILE they are kept and the same command goes on\n";
+  } else {
+    std::cerr << ", kept in " << request.json << ".part; give the same command to go on\n";
+  }
+  return Outcome::interrupted;
+}
+
+/// Runs what is missing; nothing when it was interrupted.
+std::optional<Json> run(const Request& request, const Campaign& campaign, ResultFile& results,
+                        const CancelToken& cancel, int jobs) {
+  if (results.size() > 0) std::cerr << "going on: " << results.size() << " rows are there already\n";
+  if (!run_jobs(campaign.jobs, {jobs, true, cancel}, results)) {
+    interrupted(request, results, campaign.jobs.size());
+    return std::nullopt;
+  }
+  std::vector<std::string> ids;
+  for (const Job& job : campaign.jobs) ids.push_back(job.id);
+  Json document = results.document(ids);
+  results.finish(document);
+  return document;
+}
+
+std::string heading(const Suite& suite, const Json& document) {
+  const Json& versions = document.at("versions");
+  std::string text = suite.title.empty() ? "" : suite.title + "\n";
+  text += "lrrt " + versions.at("lrrt").get<std::string>() + ", OMPL " + versions.at("ompl").get<std::string>();
+  if (versions.contains("onnxruntime")) text += ", ONNX Runtime " + versions.at("onnxruntime").get<std::string>();
+  const Json& machine = document.at("machine");
+  return text + "; " + machine.at("processor").get<std::string>() + ", " +
+         std::to_string(machine.at("cores").get<unsigned>()) + " cores\n\n";
+}
+
+Outcome run_suite(const Request& request, const CancelToken& cancel) {
+  Suite suite = load_suite(request.suite);
+  apply(request.overrides, suite);
+  check_outputs(request, suite);
+  const int jobs = is_plan(suite) ? request.jobs : 1;  // predictions side by side would measure each other
+  warn(suite, jobs);
+  const Campaign campaign = is_plan(suite) ? plan_campaign(suite, cancel) : predict_campaign(suite, cancel);
+  ResultFile results(request.json, header_of(suite, campaign));
+  const std::optional<Json> document = run(request, campaign, results, cancel, jobs);
+  if (!document) return Outcome::interrupted;
+  write_outputs(request, suite, *document);
+  std::cout << heading(suite, *document) << (is_plan(suite) ? plan_report(*document) : predict_report(*document));
+  return Outcome::done;
+}
+
+Outcome run_replay(const Request& request, const CancelToken& cancel) {
+  const Json before = read_result(request.replay);
+  const Suite suite = replayed_suite(before, request.replay);
+  check_outputs(request, suite);
+  const Campaign campaign =
+      is_plan(suite) ? plan_campaign(suite, cancel, replay_limits(before)) : predict_campaign(suite, cancel);
+  check_inputs(before, campaign.inputs, request.replay);
+  Json header = header_of(suite, campaign);
+  header["replay_of"] = request.replay;
+  ResultFile results(request.json, header);
+  const std::optional<Json> document = run(request, campaign, results, cancel, is_plan(suite) ? request.jobs : 1);
+  if (!document) return Outcome::interrupted;
+  write_outputs(request, suite, *document);
+  const Comparison comparison = compare_replay(before, *document);
+  std::cout << comparison.text;
+  return comparison.same ? Outcome::done : Outcome::differs;
+}
+
+}  // namespace
+
+std::string suite_list() {
+  constexpr std::size_t width = 12;
+  std::string text;
+  for (const std::string& name : shipped_suites()) {
+    const std::string padding(std::max(width, name.size() + 2) - name.size(), ' ');
+    text += name + padding + load_suite(name).title + "\n";
+  }
+  return text;
+}
+
+Outcome execute(const Request& request, const CancelToken& cancel) {
+  return request.replay.empty() ? run_suite(request, cancel) : run_replay(request, cancel);
+}
+
+}  // namespace lrrt::bench

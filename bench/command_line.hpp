@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "lrrt/plan.hpp"
+#include "suite.hpp"
+
+namespace lrrt::bench {
+
+/// What the command line asks for.
+struct Request {
+  std::string suite;   ///< name or file; empty for --replay
+  std::string replay;  ///< result file to run again; empty for --suite
+  Overrides overrides{};
+  int jobs = 1;      ///< runs at a time
+  std::string json;  ///< files to write; empty for none
+  std::string csv;
+  std::string ompl_log;
+};
+
+/// How a run of the program ended, as its exit code.
+enum class Outcome { done = 0, failed = 2, differs = 3, interrupted = 130 };
+
+/// The suites that ship, one a line, with their titles.
+std::string suite_list();
+
+/// Runs a suite, prints its report and writes the files asked for; or runs a result file again and compares.
+/// @param cancel ends the run; with Request::json it can be gone on with.
+/// @throws lrrt::Error for bad input.
+Outcome execute(const Request& request, const CancelToken& cancel);
+
+}  // namespace lrrt::bench

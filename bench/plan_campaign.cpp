@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "campaign.hpp"
+#include "lrrt/planner.hpp"
+#include "lrrt/predict/onnx_predictor.hpp"
+#include "models.hpp"
+#include "problems.hpp"
+#include "reference.hpp"
+
+namespace lrrt::bench {
+namespace {
+
+/// The shortest path of a problem, computed when it is first asked for, once for all rows and seeds.
+class Optimum {
+ public:
+  double of(const Problem& problem, const PlanSuite& suite) {
+    std::call_once(once_, [&] {
+      if (suite.reference) length_ = shortest_length(planning_map(*problem.map, suite), problem.start, problem.goal);
+    });
+    return length_;
+  }
+
+ private:
+  std::once_flag once_;
+  double length_ = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Everything that one run needs.
+struct PlanJob {
+  std::shared_ptr<const Problem> problem;
+  std::shared_ptr<Optimum> optimum;
+  std::shared_ptr<const RegionPredictor> predictor;  ///< null for unguided rows
+  PlanSuite suite;
+  PlanRow row;
+  CancelToken cancel;
+  bool limited_by_id = false;
+};
+
+/// JSON knows no infinity and no NaN.
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json();
+}
+
+/// Milliseconds from the call to the first path within a factor of the optimum; null when there was none.
+Json time_within(const PlanResult& result, double target, double before_search) {
+  for (const CostStep& step : result.cost_history) {
+    if (step.cost <= target) return before_search + step.time;
+  }
+  return {};
+}
+
+Json times_json(const PlanResult& result) {
+  const PlanTimings& t = result.timings;
+  return {{"prepare", t.prepare}, {"encode", t.encode}, {"infer", t.infer},
+          {"region", t.region},   {"plan", t.plan},     {"total", t.total}};
+}
+
+void add_path(Json& json, const PlanResult& result, double optimum) {
+  const PlanTimings& t = result.timings;
+  const double before = t.prepare + t.encode + t.infer + t.region;
+  const CostStep& first = result.cost_history.front();
+  json["first_ms"] = before + first.time;
+  json["search_ms"] = first.time;
+  json["first_iteration"] = first.iteration;
+  json["first_length"] = first.cost;
+  json["length"] = result.cost;
+  json["optimum"] = number(optimum);
+  for (const int percent : within_percents) {
+    const double target = optimum * (1.0 + percent / 100.0);
+    json["within_ms"][std::to_string(percent)] = time_within(result, target, before);
+  }
+  for (const CostStep& step : result.cost_history) json["history"].push_back({step.time, step.iteration, step.cost});
+}
+
+Json row_json(const PlanResult& result, const PlanJob& job, double optimum) {
+  const bool by_clock = job.limited_by_id || result.status == PlanStatus::time_limit ||
+                        result.timings.plan >= 1e3 * job.row.options.time_limit;
+  Json json = {{"group", job.problem->group},
+               {"map", job.problem->map_name},
+               {"query", job.problem->query},
+               {"planner", job.row.name},
+               {"seed", job.row.options.seed},
+               {"status", to_string(result.status)},
+               {"solved", result.solved()},
+               {"iterations", result.iterations},
+               {"nodes", result.nodes},
+               {"ended_by_clock", by_clock},
+               {"times_ms", times_json(result)},
+               {"draws", {{"guided", result.draws.guided}, {"uniform", result.draws.uniform}}}};
+  if (result.region) {
+    json["region"] = {{"area", result.region->area()}, {"bridge", result.region->bridge_area()}};
+  }
+  if (result.solved()) add_path(json, result, optimum);
+  return json;
+}
+
+Json run_job(const PlanJob& job) {
+  const Planner planner(job.predictor, job.row.options);
+  const Problem& p = *job.problem;
+  const PlanResult result = planner.plan({*p.map, p.start, p.goal, job.suite.radius, job.suite.unknown, job.cancel});
+  // Afterwards: the search for the optimum must not warm the planner's caches.
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  return row_json(result, job, result.solved() ? job.optimum->of(p, job.suite) : nan);
+}
+
+/// The models of a suite, each loaded and called once before anything is measured.
+class Predictors {
+ public:
+  Predictors(const Suite& suite, Campaign& campaign) : suite_(suite), campaign_(campaign) {}
+
+  std::shared_ptr<const RegionPredictor> of(const PlanRow& row) {
+    if (row.options.strategy == Strategy::uniform) return nullptr;
+    std::shared_ptr<const RegionPredictor>& known = loaded_[row.model];
+    if (known) return known;
+    const std::filesystem::path file = model_path(suite_, row.model);
+    OnnxOptions options;
+    options.threads = std::get<PlanSuite>(suite_.body).threads;
+    const auto predictor = std::make_shared<const OnnxPredictor>(file, options);
+    const OccupancyMap empty(16, 16, std::vector<Cell>(256, Cell::free));
+    predictor->predict(empty, {2.5, 2.5}, {13.5, 13.5});
+    campaign_.onnxruntime = predictor->info().runtime_version;
+    campaign_.inputs["models"][row.model] = file_checksum(file);
+    return known = predictor;
+  }
+
+ private:
+  const Suite& suite_;
+  Campaign& campaign_;
+  std::map<std::string, std::shared_ptr<const RegionPredictor>> loaded_;
+};
+
+/// One run of one row on one problem.
+Job job_of(PlanJob job, int run, const IterationLimits& limits) {
+  job.row.options.seed = job.suite.seed + static_cast<std::uint64_t>(run);
+  const std::string id = job.problem->map_name + " | " + job.problem->query + " | " + job.row.name + " | " +
+                         std::to_string(job.row.options.seed);
+  const auto limit = limits.find(id);
+  if (limit != limits.end()) {
+    job.limited_by_id = true;
+    job.row.options.iteration_limit = limit->second;
+    job.row.options.time_limit = 1e9;
+  }
+  std::string label = job.problem->map_name + ", " + job.row.name;
+  return {id, std::move(label), [job = std::move(job)] { return run_job(job); }};
+}
+
+}  // namespace
+
+Campaign plan_campaign(const Suite& suite, const CancelToken& cancel, const IterationLimits& limits) {
+  const auto& body = std::get<PlanSuite>(suite.body);
+  Campaign campaign;
+  Predictors predictors(suite, campaign);
+  std::vector<std::shared_ptr<const RegionPredictor>> by_row;
+  for (const PlanRow& row : body.rows) by_row.push_back(predictors.of(row));
+  for (const Problem& problem : make_problems(suite)) {
+    const auto shared = std::make_shared<const Problem>(problem);
+    const auto optimum = std::make_shared<Optimum>();
+    campaign.inputs["maps"][problem.map_name] = map_checksum(*problem.map);
+    // Rows innermost: whatever else the machine does falls on all of them alike.
+    for (int run = 0; run < body.runs; ++run) {
+      for (std::size_t i = 0; i < body.rows.size(); ++i) {
+        campaign.jobs.push_back(job_of({shared, optimum, by_row[i], body, body.rows[i], cancel}, run, limits));
+      }
+    }
+  }
+  return campaign;
+}
+
+}  // namespace lrrt::bench

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "suite.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+namespace lrrt::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr NumberRule sides{16, 16384, "a side from 16 to 16384 pixels"};
+constexpr NumberRule threads_rule{1, 1024, "a number of threads from 1 to 1024"};
+constexpr NumberRule levels{5, 2047, "an odd number of blocks from 5 on"};
+constexpr NumberRule counts{1, 1e9, "a whole number from 1 on"};
+
+PredictSuite read_predict_suite(const Fields& fields) {
+  fields.allow_only({"kind", "title", "models", "sizes", "threads", "spinning", "level", "mazes", "runs", "seed"});
+  PredictSuite suite;
+  suite.models = fields.texts("models", suite.models);
+  suite.sizes = fields.counts("sizes", suite.sizes, sides);
+  suite.threads = fields.counts("threads", suite.threads, threads_rule);
+  suite.spinning = fields.flags("spinning", suite.spinning);
+  suite.level = static_cast<int>(fields.count("level", suite.level, levels));
+  suite.mazes = static_cast<int>(fields.count("mazes", suite.mazes, counts));
+  suite.runs = static_cast<int>(fields.count("runs", suite.runs, counts));
+  suite.seed = fields.seed("seed", suite.seed);
+  if (suite.level % 2 == 0) fields.refuse("level", levels.expected);
+  if (suite.level > *std::min_element(suite.sizes.begin(), suite.sizes.end())) {
+    fields.refuse("level", "no more blocks than the smallest of sizes has pixels");
+  }
+  return suite;
+}
+
+YAML::Node parsed(const std::string& text, const std::string& file) {
+  try {
+    return YAML::Load(text);
+  } catch (const YAML::Exception& error) {
+    throw SuiteError(file + ":" + std::to_string(error.mark.line + 1) + ": not YAML: " + error.msg);
+  }
+}
+
+bool is_yaml(const fs::path& path) {
+  return path.extension() == ".yaml" || path.extension() == ".yml";
+}
+
+fs::path find_suite(const std::string& name) {
+  const fs::path path = is_yaml(name) ? fs::path(name) : fs::path(LRRT_BENCH_SUITES) / (name + ".yaml");
+  std::error_code ignored;
+  if (fs::is_regular_file(path, ignored)) return path;
+  std::string known;
+  for (const std::string& suite : shipped_suites()) known += (known.empty() ? "" : ", ") + suite;
+  throw SuiteError("suite '" + name + "' does not exist: expected one of " + known + ", or a file that ends in .yaml");
+}
+
+}  // namespace
+
+Suite parse_suite(const std::string& text, const std::string& file, const fs::path& folder) {
+  const Fields fields(parsed(text, file), file, "");
+  fields.require("kind", "plan or predict");
+  Suite suite;
+  suite.title = fields.text("title", "");
+  suite.folder = folder;
+  if (fields.word("kind", "plan", {"plan", "predict"}) == "plan") {
+    suite.body = read_plan_suite(fields);
+  } else {
+    suite.body = read_predict_suite(fields);
+  }
+  return suite;
+}
+
+Suite load_suite(const std::string& name) {
+  const fs::path path = find_suite(name);
+  std::ifstream stream(path, std::ios::binary);
+  std::stringstream text;
+  text << stream.rdbuf();
+  if (!stream) throw SuiteError(path.string() + ": cannot be read");
+  return parse_suite(text.str(), path.string(), fs::proximate(fs::absolute(path).parent_path()));
+}
+
+std::vector<std::string> shipped_suites() {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(LRRT_BENCH_SUITES, ignored)) {
+    if (is_yaml(entry.path())) names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+void apply(const Overrides& overrides, Suite& suite) {
+  std::visit(
+      [&](auto& body) {
+        body.runs = overrides.runs.value_or(body.runs);
+        body.seed = overrides.seed.value_or(body.seed);
+      },
+      suite.body);
+  if (auto* plan = std::get_if<PlanSuite>(&suite.body)) {
+    for (PlanRow& row : plan->rows) row.options.time_limit = overrides.time_limit.value_or(row.options.time_limit);
+  }
+}
+
+}  // namespace lrrt::bench

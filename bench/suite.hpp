@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "fields.hpp"
+#include "json.hpp"
+#include "lrrt/plan.hpp"
+
+namespace lrrt::bench {
+
+/// Where the start and goal pairs of a map come from.
+struct QuerySource {
+  enum class Kind {
+    farthest,  ///< the two ends of the longest way
+    random,    ///< random free pixels of the largest component, far apart
+    points,    ///< given points
+    scen,      ///< a MovingAI scenario list
+  };
+  Kind kind = Kind::farthest;
+  int count = 1;           ///< random: pairs a map; scen: so many of the list, evenly spread, 0 for all
+  double apart = 0.5;      ///< random: least straight distance, as a share of the component's diagonal
+  std::uint64_t seed = 1;  ///< random
+  Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< points: map units
+  Eigen::Vector2d goal = Eigen::Vector2d::Zero();   ///< points: map units
+  std::string path;                                 ///< scen: file; empty for the map's own name and ".scen"
+};
+
+/// One entry of a suite's `maps`: one map, or many that are reported together.
+struct MapSource {
+  enum class Kind { maze, file, folder };
+  Kind kind = Kind::maze;
+  std::string name;                            ///< the group's heading
+  std::string path;                            ///< file, folder
+  int level = 25;                              ///< maze: blocks a side
+  std::vector<std::string> algorithms{"dfs"};  ///< maze: taken in turn
+  int count = 1;                               ///< maze: how many
+  int pixels = 256;                            ///< maze: side of the picture
+  double braid = 0.0;                          ///< maze: share of dead ends with a second exit
+  std::uint64_t seed = 1;                      ///< maze
+  std::vector<QuerySource> queries;
+};
+
+/// One row of the report: a planner with all of its settings.
+struct PlanRow {
+  std::string name;
+  std::string strategy = "region";  ///< a word that the library knows
+  std::string model = "default";    ///< a file, or the model that ships
+  std::string stop = "first";       ///< a word that the library knows
+  PlanOptions options;              ///< complete but for the seed
+};
+
+/// `kind: plan`: planners against each other on the same queries with the same seeds.
+struct PlanSuite {
+  std::vector<MapSource> maps;
+  std::vector<PlanRow> rows;
+  std::string baseline;    ///< name of the row that the others are compared with
+  int runs = 10;           ///< seeds a query
+  std::uint64_t seed = 1;  ///< of the first run; the next run takes the next number
+  double radius = 0.0;     ///< of the disc-shaped robot, map units
+  UnknownIs unknown = UnknownIs::occupied;
+  int threads = 0;        ///< of one prediction; 0 lets the library choose
+  bool reference = true;  ///< whether the exact shortest path is computed
+};
+
+/// `kind: predict`: how fast models predict.
+struct PredictSuite {
+  std::vector<std::string> models{"default"};  ///< files, patterns such as "models/*.onnx", or "default"
+  std::vector<int> sizes{256};                 ///< sides of the maps, pixels
+  std::vector<int> threads{1, 2};              ///< of one prediction
+  std::vector<bool> spinning{false};           ///< whether idle threads spin
+  int level = 35;                              ///< blocks a side of the mazes that are shown
+  int mazes = 8;                               ///< different mazes a size, taken in turn
+  int runs = 200;                              ///< predictions a setting
+  std::uint64_t seed = 1;                      ///< of the mazes
+};
+
+/// What a suite file says.
+struct Suite {
+  std::string title;
+  std::filesystem::path folder;  ///< where relative paths start
+  std::variant<PlanSuite, PredictSuite> body;
+
+  /// A path in the suite, resolved.
+  std::filesystem::path resolved(const std::string& path) const { return (folder / path).lexically_normal(); }
+};
+
+/// What the command line changes about a suite.
+struct Overrides {
+  std::optional<int> runs;
+  std::optional<std::uint64_t> seed;
+  std::optional<double> time_limit;
+};
+
+/// Reads a suite.
+/// @param text YAML; JSON as to_json() writes it is YAML too.
+/// @param file its name in errors. @param folder where relative paths start.
+/// @throws SuiteError that names file, line and key.
+Suite parse_suite(const std::string& text, const std::string& file, const std::filesystem::path& folder);
+
+/// @param name of a suite that ships, or a file. @throws SuiteError as parse_suite(), and when there is no such file.
+Suite load_suite(const std::string& name);
+
+/// The suites that ship, by name.
+std::vector<std::string> shipped_suites();
+
+void apply(const Overrides& overrides, Suite& suite);
+
+/// Everything that a suite says, defaults spelled out. parse_suite() reads it back.
+Json to_json(const Suite& suite);
+
+/// Reads the body of a `kind: plan` suite. @throws SuiteError.
+PlanSuite read_plan_suite(const Fields& fields);
+
+}  // namespace lrrt::bench
