@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "lrrt/error.hpp"
-#include "lrrt/map/components.hpp"
+#include "lrrt/map/flood.hpp"
 #include "lrrt/map/footprint.hpp"
 #include "lrrt/ompl/guide.hpp"
 #include "lrrt/ompl/map_search.hpp"
@@ -84,7 +84,7 @@ std::optional<PlanStatus> hopeless(const OccupancyMap& map, const PlanRequest& r
   if (!map.contains(goal)) return PlanStatus::goal_outside;
   if (!map.is_free(start)) return PlanStatus::start_occupied;
   if (!map.is_free(goal)) return PlanStatus::goal_occupied;
-  if (!Components(map).joined(start, goal)) return PlanStatus::not_connected;
+  if (!Flood(map.free_mask(), map.width(), map.height(), start).reached(goal)) return PlanStatus::not_connected;
   return std::nullopt;
 }
 

@@ -52,8 +52,8 @@ def plan_command(
     goal: Goal,
     planner: Annotated[str, typer.Option(help=f"One of {', '.join(planner_names())}.")] = "RRTstar",
     strategy: Annotated[
-        str, typer.Option(help="Where guided samples come from: region, uniform (unguided).")
-    ] = "region",
+        str, typer.Option(help="Where guided samples come from: frontier, region, uniform (unguided).")
+    ] = "frontier",
     alpha: Annotated[float, typer.Option(help="Share of guided samples, 0 to 1.")] = 0.8,
     model: Model = None,
     stop: Annotated[

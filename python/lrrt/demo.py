@@ -42,7 +42,7 @@ def sample_map() -> OccupancyMap:
 def race(map_: OccupancyMap, start: Point, goal: Point, time_limit: float, console: Console) -> list[Contender]:
     """RRT* and L-RRT* on the same query with the same settings; each stops at its first path."""
     contenders = []
-    for name, strategy in (("RRT*", "uniform"), (f"L-RRT*, α = {ALPHA}", "region")):
+    for name, strategy in (("RRT*", "uniform"), (f"L-RRT*, α = {ALPHA}", "frontier")):
         with console.status(f"{name} is planning (up to {time_limit:g} s) …"):
             result = plan(
                 map_,

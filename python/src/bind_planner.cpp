@@ -146,7 +146,7 @@ void bind_planner(py::module_& module) {
   module.def("planner_names", &planner_names, "Names that plan() accepts as `planner`.");
   const PlanOptions defaults;
   module.def("plan", &plan, py::arg("map"), py::arg("start"), py::arg("goal"), py::kw_only(),
-             py::arg("planner") = defaults.planner, py::arg("strategy") = "region", py::arg("alpha") = defaults.alpha,
+             py::arg("planner") = defaults.planner, py::arg("strategy") = "frontier", py::arg("alpha") = defaults.alpha,
              py::arg("predictor") = py::none(), py::arg("stop") = "first",
              py::arg("cost_factor") = defaults.cost_factor, py::arg("time_limit") = defaults.time_limit,
              py::arg("iteration_limit") = py::none(), py::arg("range") = defaults.range,

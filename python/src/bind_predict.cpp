@@ -136,6 +136,8 @@ void bind_region(py::module_& module) {
           "(H, W) bool view, read-only: free and promising.")
       .def_property_readonly("connected", &PromisingRegion::connected,
                              "True when start and goal are joined inside the mask.")
+      .def_property_readonly("link_area", &PromisingRegion::link_area,
+                             "Pixels below the threshold that the predictor took in to join start and goal.")
       .def_property_readonly("bridge_area", &PromisingRegion::bridge_area,
                              "Pixels that plan() added to close gaps; 0 for a region as it was predicted.")
       .def_property_readonly("area", &PromisingRegion::area, "Number of pixels in the mask.")

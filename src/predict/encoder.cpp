@@ -8,6 +8,7 @@
 #include <string>
 
 #include "lrrt/error.hpp"
+#include "lrrt/map/flood.hpp"
 
 namespace lrrt {
 namespace {
@@ -29,8 +30,10 @@ Pixel free_pixel(const OccupancyMap& map, const Eigen::Vector2d& point, const ch
 
 /// The box of the components of start and goal, one pixel wider where the map goes on.
 PixelBox part_that_matters(const OccupancyMap& map, Pixel start, Pixel goal) {
-  const Components components(map);
-  const PixelBox box = united(components.box(components.label(start)), components.box(components.label(goal)));
+  const std::vector<std::uint8_t> free = map.free_mask();
+  const Flood around_start(free, map.width(), map.height(), start);
+  PixelBox box = around_start.box();
+  if (!around_start.reached(goal)) box = united(box, Flood(free, map.width(), map.height(), goal).box());
   const int c = std::max(0, box.c - 1);
   const int r = std::max(0, box.r - 1);
   return {c, r, std::min(map.width(), box.c + box.width + 1) - c, std::min(map.height(), box.r + box.height + 1) - r};

@@ -60,6 +60,9 @@ class Pool {
   std::vector<std::unique_ptr<Workspace>> idle_;
 };
 
+/// Below this probability a pixel never joins a region, whatever it would link.
+inline constexpr float lowest_probability = 0.02F;
+
 /// Arguments of RegionPredictor::predict.
 struct RegionQuery {
   const OccupancyMap& map;
@@ -81,6 +84,10 @@ Prediction predict_region(const ModelInfo& info, const Encoder& encoder, const R
   PromisingRegion region(query.map, fit.to_map(output + info.promising * plane_size(info)),
                          OccupancyMap::pixel_of(query.map.to_pixel(query.start)),
                          OccupancyMap::pixel_of(query.map.to_pixel(query.goal)), info.threshold);
+  if (!region.connected()) {
+    region = region.linked(query.map, OccupancyMap::pixel_of(query.map.to_pixel(query.start)),
+                           OccupancyMap::pixel_of(query.map.to_pixel(query.goal)), lowest_probability);
+  }
   timings.region = watch.lap_ms();
   return {std::move(region), timings};
 }

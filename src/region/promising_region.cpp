@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "lrrt/error.hpp"
-#include "lrrt/map/components.hpp"
+#include "lrrt/map/flood.hpp"
 
 namespace lrrt {
 namespace {
@@ -33,7 +33,7 @@ PromisingRegion::PromisingRegion(const OccupancyMap& map, std::vector<float> pro
   std::transform(probability_.begin(), probability_.end(), map.cells().begin(), mask_.begin(),
                  [&](float p, Cell cell) { return static_cast<std::uint8_t>(cell == Cell::free && p >= threshold); });
   area_ = static_cast<std::size_t>(std::count(mask_.begin(), mask_.end(), std::uint8_t{1}));
-  connected_ = Components(width_, height_, mask_).joined(start, goal);
+  connected_ = Flood(mask_, width_, height_, start).reached(goal);
 }
 
 }  // namespace lrrt

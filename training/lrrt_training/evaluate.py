@@ -57,7 +57,7 @@ def evaluate(predictor: lrrt.OnnxPredictor, groups: Groups, maps: int, split: st
     for group, number in track(jobs, description=f"{predictor.info.name}: {len(groups)} groups × {maps} maps"):
         judged = Judged(predictor, predictor.info.input_size, scene_of(groups, group, number, split))
         region, label = torch.from_numpy(judged.region.mask.copy()), torch.from_numpy(judged.label)
-        metrics.update(region[None], label[None], [group], [judged.region.connected])
+        metrics.update(region[None], label[None], [group], [judged.region.connected], [judged.region.link_area > 0])
     return metrics.compute()
 
 
@@ -90,7 +90,7 @@ def write_threshold(path: Path, threshold: float) -> None:
 def rich_table(title: str, scores: Scores) -> Table:
     """Scores for the terminal."""
     table = Table(title=title)
-    for column in ("maps", "accuracy", "redundancy", "metric", "connected", "count"):
+    for column in ("maps", "accuracy", "redundancy", "metric", "connected", "by a link", "count"):
         table.add_column(column, justify="right")
     for level, row in scores.items():
         if level == "all":
@@ -101,14 +101,14 @@ def rich_table(title: str, scores: Scores) -> Table:
 
 def markdown_table(scores: Scores) -> str:
     """Scores for the model card."""
-    lines = ["| maps | accuracy | redundancy | metric | connected | count |", "|---:|---:|---:|---:|---:|---:|"]
+    lines = ["| maps | accuracy | redundancy | metric | connected | by a link | count |", "|---:|---:|---:|---:|---:|---:|---:|"]
     lines += [f"| {level} | {' | '.join(_cells(row))} |" for level, row in scores.items()]
     return "\n".join(lines)
 
 
 def _cells(row: dict[str, float]) -> list[str]:
     figures = [f"{row[name]:.3f}" for name in ("accuracy", "redundancy", "metric")]
-    return [*figures, f"{100 * row['connectivity']:.1f} %", f"{int(row['count'])}"]
+    return [*figures, f"{100 * row['connectivity']:.1f} %", f"{100 * row['linked']:.1f} %", f"{int(row['count'])}"]
 
 
 def _write(path: Path, text: str) -> None:

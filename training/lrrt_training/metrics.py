@@ -11,7 +11,7 @@ from torchmetrics import Metric
 
 OBSTACLE, PROMISING = 1, 2  #: class numbers in labels
 START, GOAL = 1, 2  #: values of the ``ends`` picture
-NAMES = ("accuracy", "redundancy", "metric", "connectivity")
+NAMES = ("accuracy", "redundancy", "metric", "connectivity", "linked")
 
 
 def accuracy(region: Tensor, label: Tensor) -> Tensor:
@@ -42,7 +42,8 @@ def is_connected(region: np.ndarray, label: np.ndarray, ends: np.ndarray) -> boo
 
 
 class RegionMetrics(Metric):
-    """Mean accuracy, redundancy, metric = (1 − accuracy) + redundancy and connectivity, for every group and over all.
+    """Mean accuracy, redundancy, metric = (1 − accuracy) + redundancy, connectivity, and the share of the maps whose
+    region needed a link to join start and goal, for every group and over all.
 
     A group is a maze level or a family of maps. ``compute`` returns {group: {name: value, "count": n}} with the key
     ``"all"`` for the mean over all maps.
@@ -54,15 +55,19 @@ class RegionMetrics(Metric):
     def __init__(self, groups: list[str]) -> None:
         super().__init__()
         self.groups = list(groups)
-        self.add_state("sums", torch.zeros(len(groups), 4, dtype=torch.float64), dist_reduce_fx="sum")
+        self.add_state("sums", torch.zeros(len(groups), 5, dtype=torch.float64), dist_reduce_fx="sum")
 
-    def update(self, region: Tensor, label: Tensor, groups: list[str], connected: list[bool]) -> None:
-        """Adds maps: (N, H, W) bool region and label, N names of groups, N times whether start and goal are joined."""
+    def update(
+        self, region: Tensor, label: Tensor, groups: list[str], connected: list[bool], linked: list[bool] | None = None
+    ) -> None:
+        """Adds maps: (N, H, W) bool region and label, N names of groups, N times whether start and goal are joined, and
+        whether that took a link."""
         rows = torch.stack(
             (
                 accuracy(region, label).double(),
                 redundancy(region, label).double(),
                 torch.tensor(connected, dtype=torch.float64, device=region.device),
+                torch.tensor(linked or [False] * len(region), dtype=torch.float64, device=region.device),
                 torch.ones(len(region), dtype=torch.float64, device=region.device),
             ),
             dim=1,
@@ -72,18 +77,19 @@ class RegionMetrics(Metric):
 
     def compute(self) -> dict[str, dict[str, float]]:
         """The means; groups without a map are left out."""
-        result = {group: _means(row) for group, row in zip(self.groups, self.sums) if row[3] > 0}
+        result = {group: _means(row) for group, row in zip(self.groups, self.sums) if row[4] > 0}
         result["all"] = _means(self.sums.sum(dim=0))
         return result
 
 
 def _means(row: Tensor) -> dict[str, float]:
-    acc, red, con, count = row.tolist()
+    acc, red, con, linked, count = row.tolist()
     n = max(count, 1.0)
     return {
         "accuracy": acc / n,
         "redundancy": red / n,
         "metric": (1 - acc / n) + red / n,
         "connectivity": con / n,
+        "linked": linked / n,
         "count": int(count),
     }

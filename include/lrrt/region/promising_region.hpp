@@ -28,10 +28,20 @@ class PromisingRegion {
   std::size_t area() const { return area_; }
   /// True when one can walk from start to goal inside the mask without touching any other pixel.
   bool connected() const { return connected_; }
+  /// Number of pixels below the threshold that linked() added to the mask.
+  std::size_t link_area() const { return link_area_; }
   /// Number of pixels that bridged() added to the mask; 0 for a region as it was predicted.
   std::size_t bridge_area() const { return bridge_area_; }
   /// The middle lines of the bridges: the pixels of the way from start to goal that the prediction lacked.
   const std::vector<Pixel>& bridge() const { return bridge_; }
+
+  /// The region with its weak spots taken in: where the threshold leaves start and goal apart, the pixels on the way
+  /// whose least probability is the highest join it, and their neighbours that are at least as probable as `lowest`. It
+  /// is what a threshold that sinks until start and goal meet would find, without what it would add elsewhere.
+  /// @param lowest least probability of a pixel that joins, in [0, 1]. @param halo half the width of a link, pixels.
+  /// @return the region itself when it is connected or no such way exists.
+  /// @throws RequestError when the map has another size or an argument is out of range.
+  PromisingRegion linked(const OccupancyMap& map, Pixel start, Pixel goal, float lowest, int halo = 3) const;
 
   /// The region with its gaps closed: start and goal are joined along the way that leaves the mask for the fewest
   /// pixels, and that way is widened within free space. Predicted regions do break, and a broken one guides into a dead
@@ -47,6 +57,7 @@ class PromisingRegion {
   std::vector<std::uint8_t> mask_;
   std::size_t area_;
   bool connected_;
+  std::size_t link_area_ = 0;
   std::size_t bridge_area_ = 0;
   std::vector<Pixel> bridge_;
 };
