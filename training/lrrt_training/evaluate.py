@@ -101,7 +101,10 @@ def rich_table(title: str, scores: Scores) -> Table:
 
 def markdown_table(scores: Scores) -> str:
     """Scores for the model card."""
-    lines = ["| maps | accuracy | redundancy | metric | connected | by a link | count |", "|---:|---:|---:|---:|---:|---:|---:|"]
+    lines = [
+        "| maps | accuracy | redundancy | metric | connected | by a link | count |",
+        "|---:|---:|---:|---:|---:|---:|---:|",
+    ]
     lines += [f"| {level} | {' | '.join(_cells(row))} |" for level, row in scores.items()]
     return "\n".join(lines)
 

@@ -54,19 +54,16 @@ def _ready(network: nn.Module) -> nn.Module:
 
 
 def commit() -> str:
-    """The commit of the training code, marked when there are changes on top of it; "unknown" outside a checkout."""
-    folder = Path(__file__).parent
+    """The commit of the training code, marked when that code has changes on top of it; "unknown" outside a checkout."""
+
+    def git(*arguments: str) -> str:
+        run = subprocess.run(["git", *arguments], cwd=Path(__file__).parent, capture_output=True, text=True, check=True)
+        return run.stdout.strip()
+
     try:
-        run = subprocess.run(
-            ["git", "describe", "--always", "--abbrev=12", "--dirty", "--exclude=*"],
-            cwd=folder,
-            capture_output=True,
-            text=True,
-            check=True,
-        )
+        return git("rev-parse", "--short=12", "HEAD") + ("-dirty" if git("status", "--porcelain", ".") else "")
     except (OSError, subprocess.CalledProcessError):
         return "unknown"
-    return run.stdout.strip()
 
 
 def metadata(

@@ -23,7 +23,14 @@ SIZE, MAPS = 64, 3
 PERFECT = {"accuracy": 1.0, "redundancy": 0.0, "metric": 0.0, "connectivity": 1.0, "linked": 0.0}
 SCORES = {
     "21": {"accuracy": 0.98764, "redundancy": 0.05, "metric": 0.0624, "connectivity": 0.9, "linked": 0.0, "count": 200},
-    "all": {"accuracy": 0.98764, "redundancy": 0.05, "metric": 0.0624, "connectivity": 0.9, "linked": 0.0, "count": 200},
+    "all": {
+        "accuracy": 0.98764,
+        "redundancy": 0.05,
+        "metric": 0.0624,
+        "connectivity": 0.9,
+        "linked": 0.0,
+        "count": 200,
+    },
 }
 
 
@@ -120,7 +127,14 @@ def test_the_threshold_belongs_to_the_region(groups):
     """A pixel is promising from the threshold on, as in the library."""
     at, below = (scoring.evaluate(Fake(groups, lambda lab, v=v: v * (lab == 2)), groups, MAPS) for v in (0.5, 0.4999))
     assert at["all"]["accuracy"] == 1.0
-    assert below["all"] == {**PERFECT, "accuracy": 0.0, "metric": 1.0, "connectivity": 0.0, "linked": 0.0, "count": 3 * MAPS}
+    assert below["all"] == {
+        **PERFECT,
+        "accuracy": 0.0,
+        "metric": 1.0,
+        "connectivity": 0.0,
+        "linked": 0.0,
+        "count": 3 * MAPS,
+    }
 
 
 def test_a_model_that_marks_everything_is_redundant(groups):

@@ -107,8 +107,22 @@ def update(metrics: RegionMetrics, *cases: tuple[str, str]) -> RegionMetrics:
 def test_means_of_every_group_and_of_all():
     scores = update(RegionMetrics(["9", "5", "rooms"]), ("5", "exact"), ("5", "gap"), ("9", "wide")).compute()
     assert list(scores) == ["9", "5", "all"], "in the order of the groups; one without maps is left out"
-    assert scores["5"] == {"accuracy": 0.875, "redundancy": 0.0, "metric": 0.125, "connectivity": 0.5, "linked": 0.0, "count": 2}
-    assert scores["9"] == {"accuracy": 1.0, "redundancy": 1.0, "metric": 1.0, "connectivity": 1.0, "linked": 0.0, "count": 1}
+    assert scores["5"] == {
+        "accuracy": 0.875,
+        "redundancy": 0.0,
+        "metric": 0.125,
+        "connectivity": 0.5,
+        "linked": 0.0,
+        "count": 2,
+    }
+    assert scores["9"] == {
+        "accuracy": 1.0,
+        "redundancy": 1.0,
+        "metric": 1.0,
+        "connectivity": 1.0,
+        "linked": 0.0,
+        "count": 1,
+    }
     assert scores["all"]["accuracy"] == pytest.approx(2.75 / 3)
     assert scores["all"]["redundancy"] == pytest.approx(1 / 3)
     assert scores["all"]["metric"] == pytest.approx(0.25 / 3 + 1 / 3)
