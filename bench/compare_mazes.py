@@ -153,9 +153,8 @@ def main() -> None:
         connected += predictor.predict(map_, start, goal).connected
         runs += [run(name, maze, args.level, predictor, args) for name in STRATEGIES]
     console = Console(width=150)
-    console.print(
-        table(runs, f"First path in {args.mazes} perfect mazes of {args.level}×{args.level} blocks, 256×256 pixels, α = {args.alpha:g}")
-    )
+    mazes_text = f"{args.mazes} perfect mazes of {args.level}×{args.level} blocks, 256×256 pixels"
+    console.print(table(runs, f"First path in {mazes_text}, α = {args.alpha:g}"))
     console.print(f"The predicted region joins start and goal by itself in {connected} of {args.mazes} mazes.")
     console.print(f"{os.cpu_count()} cores, {platform.machine()}")
     if args.json:

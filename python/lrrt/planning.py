@@ -64,8 +64,8 @@ def plan(
         start: (x, y) where the path begins.
         goal: (x, y) where it ends.
         planner: one of ``planner_names()``.
-        strategy: where guided samples come from: ``"frontier"`` (the region just ahead of the tree), ``"region"`` (all of
-            it, the paper's sampler), or ``"uniform"`` for planning without guidance.
+        strategy: where guided samples come from: ``"frontier"`` (the region just ahead of the tree), ``"region"``
+            (all of it, the paper's sampler), or ``"uniform"`` for planning without guidance.
         alpha: share of guided samples, 0 to 1; the others are uniform. 1 gives up completeness.
         predictor: marks the region; None takes the shipped model (see ``default_predictor``).
         stop: ``"first"`` path, ``"factor"`` (cost within ``cost_factor`` of the straightened shortest grid path), or

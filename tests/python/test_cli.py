@@ -58,7 +58,7 @@ def test_no_path_exits_with_3(picture):
     [
         (("plan", "missing.png", "--start", 5, 5, "--goal", 6, 6), "missing.png"),
         (("plan", "MAP", "--start", 5, 5, "--goal", 6, 6, "--alpha", 2), "alpha"),
-        (("plan", "MAP", "--start", 5, 5, "--goal", 6, 6, "--planner", "PRM"), "RRTstar"),
+        (("plan", "MAP", "--start", 5, 5, "--goal", 6, 6, "--planner", "KPIECE1"), "RRTstar"),
         (("plan", "MAP", "--start", "nan", 5, "--goal", 6, 6), "start"),
         (("plan", "MAP", "--start", 5, 5, "--goal", 6, 6, "--model", "missing.onnx"), "missing.onnx"),
         (("plan", "MAP", "--start", 5, 5, "--goal", 6, 6, "--picture", "/no/such/folder/x.png"), "folder"),
