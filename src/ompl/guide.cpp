@@ -70,10 +70,10 @@ Eigen::Vector2d goal_position(const ob::ProblemDefinition& problem, const MapPro
   if (goal == nullptr || goal->maxSampleCount() == 0) {
     throw RequestError("the planner's goal cannot be sampled: guide() needs a goal state or a sampleable region");
   }
-  const ob::SpaceInformationPtr si = problem.getSpaceInformation();
+  const ob::SpaceInformationPtr& si = problem.getSpaceInformation();
   ob::State* state = si->allocState();
   goal->sampleGoal(state);
-  const Eigen::Vector2d position = projection.read(state);
+  Eigen::Vector2d position = projection.read(state);
   si->freeState(state);
   return position;
 }
@@ -141,11 +141,11 @@ std::shared_ptr<GuidedSource> guide(ob::Planner& planner, const std::shared_ptr<
 }
 
 std::shared_ptr<GuidedSource> guide(ob::Planner& planner, const std::shared_ptr<const CollisionMap>& map,
-                                    MixedSampler sampler, std::shared_ptr<const MapProjection> projection) {
+                                    MixedSampler sampler, const std::shared_ptr<const MapProjection>& projection) {
   check(planner);
   const ob::SpaceInformationPtr si = planner.getSpaceInformation();
   const ob::ProblemDefinitionPtr problem = planner.getProblemDefinition();
-  const auto source =
+  auto source =
       std::make_shared<GuidedSource>(map, std::move(sampler), projection, projection->read(problem->getStartState(0)),
                                      goal_position(*problem, *projection));
   si->getStateSpace()->setStateSamplerAllocator(

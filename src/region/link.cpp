@@ -29,9 +29,9 @@ std::vector<Pixel> most_probable_way(const OccupancyMap& map, const std::vector<
   arrived_by[map.index(start)] = 0;
   for (int level = steps - 1; level >= 0; --level) {
     std::vector<Pixel>& bucket = open[static_cast<std::size_t>(level)];
-    for (std::size_t head = 0; head < bucket.size();
-         ++head) {  // first in, first out: short among equally probable ways
-      const Pixel p = bucket[head];
+    std::size_t head = 0;
+    while (head < bucket.size()) {  // first in, first out: short among equally probable ways; the bucket may grow
+      const Pixel p = bucket[head++];
       for (std::size_t side = 0; side < sides.size(); ++side) {
         const Pixel next{p.c + sides[side].c, p.r + sides[side].r};
         if (!map.is_free(next)) continue;

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 import os
 import zipfile
 from concurrent.futures import ProcessPoolExecutor, as_completed
@@ -126,4 +128,21 @@ class MazeStore:
             for future in as_completed(pending):
                 future.result()
                 progress.advance(task, self.counts[pending[future][0]])
+        self.write_manifest()
         return len(jobs)
+
+    def write_manifest(self) -> None:
+        """Enters every file of the store into ``manifest.json``: sha256, bytes, mazes, and the settings of all."""
+        files = {}
+        for path in sorted(self.folder.glob("*/*.npz")):
+            content = path.read_bytes()
+            split = path.parent.name
+            files[f"{split}/{path.name}"] = {
+                "sha256": hashlib.sha256(content).hexdigest(),
+                "bytes": len(content),
+                "mazes": self.counts.get(split, 0),
+            }
+        manifest = {"format": _FORMAT, "seed": self.seed, "braided_share": self.braided_share, "files": files}
+        temporary = self.folder / f".manifest.{os.getpid()}"
+        temporary.write_text(json.dumps(manifest, indent=1) + "\n")
+        os.replace(temporary, self.folder / "manifest.json")

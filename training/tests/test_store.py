@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
+
 import numpy as np
 import pytest
 
@@ -42,7 +45,8 @@ def test_generate_makes_what_is_missing_and_nothing_else(folder):
     assert small(folder).generate([7, 9], workers=1) == 1
     after = stamps(folder)
     assert [name for name in after if after[name] != before[name]] == ["test/9.npz"]
-    assert not [p for p in folder.rglob("*") if p.is_file() and p.suffix != ".npz"], "no temporary file stays"
+    others = [p.name for p in folder.rglob("*") if p.is_file() and p.suffix != ".npz"]
+    assert others == ["manifest.json"], "no temporary file stays"
 
 
 @pytest.mark.parametrize("changes", [{"seed": 5}, {"braided_share": 1.0}, {"counts": {**FEW, "test": 4}}])
@@ -95,3 +99,17 @@ def test_bad_level_and_split_are_named(folder):
     with pytest.raises(ValueError, match="'tset': expected one of train, evaluation, test"):
         small(folder).mazes("tset", 21)
     assert not folder.exists(), "nothing is written"
+
+
+def test_manifest_tells_every_file_by_its_hash_and_is_the_same_for_the_same_mazes(tmp_path):
+    manifests = []
+    for folder in (tmp_path / "one", tmp_path / "two"):
+        made = MazeStore(folder, counts={"train": 3, "evaluation": 1, "test": 2})
+        made.generate([5, 7], ("train", "test"), workers=1)
+        manifests.append(json.loads((folder / "manifest.json").read_text()))
+        for name, entry in manifests[-1]["files"].items():
+            content = (folder / name).read_bytes()
+            assert entry["sha256"] == hashlib.sha256(content).hexdigest() and entry["bytes"] == len(content)
+    assert manifests[0] == manifests[1]
+    assert sorted(manifests[0]["files"]) == ["test/5.npz", "test/7.npz", "train/5.npz", "train/7.npz"]
+    assert manifests[0]["files"]["train/5.npz"]["mazes"] == 3

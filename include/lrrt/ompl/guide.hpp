@@ -54,6 +54,6 @@ std::shared_ptr<GuidedSource> guide(ompl::base::Planner& planner, const std::sha
 
 /// The same for a sampler that exists already. @throws RequestError as above but for start and goal.
 std::shared_ptr<GuidedSource> guide(ompl::base::Planner& planner, const std::shared_ptr<const CollisionMap>& map,
-                                    MixedSampler sampler, std::shared_ptr<const MapProjection> projection);
+                                    MixedSampler sampler, const std::shared_ptr<const MapProjection>& projection);
 
 }  // namespace lrrt
