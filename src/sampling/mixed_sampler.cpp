@@ -9,7 +9,7 @@
 
 namespace lrrt {
 
-MixedSampler::MixedSampler(std::unique_ptr<SamplingStrategy> guided, UniformStrategy uniform, double alpha,
+MixedSampler::MixedSampler(std::unique_ptr<SamplingStrategy> guided, const UniformStrategy& uniform, double alpha,
                            std::uint64_t seed)
     : guided_(std::move(guided)), uniform_(uniform), alpha_(alpha), random_(seed) {
   if (!(alpha >= 0.0 && alpha <= 1.0)) {

@@ -27,7 +27,8 @@ class MixedSampler {
   /// @param guided may be null, then every draw is uniform.
   /// @param alpha share of guided draws, in [0, 1]; a strategy that lacks confidence takes less.
   /// @throws RequestError when alpha is out of range.
-  MixedSampler(std::unique_ptr<SamplingStrategy> guided, UniformStrategy uniform, double alpha, std::uint64_t seed);
+  MixedSampler(std::unique_ptr<SamplingStrategy> guided, const UniformStrategy& uniform, double alpha,
+               std::uint64_t seed);
 
   /// The next point, pixel coordinates.
   Eigen::Vector2d draw();
