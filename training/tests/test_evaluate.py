@@ -199,7 +199,7 @@ def test_card_table_is_replaced(tmp_path):
     scoring.write_card_table(card, SCORES)
     once = card.read_text()
     assert "old" not in once
-    assert "| 21 | 0.988 | 0.050 | 0.062 | 90.0 % | 200 |" in once
+    assert "| 21 | 0.988 | 0.050 | 0.062 | 90.0 % | 0.0 % | 200 |" in once
     assert once.startswith(f"# Model\n\n{scoring.CARD_BEGIN}\n| maps |")
     assert once.endswith(f"|\n{scoring.CARD_END}\n\nLimits.\n")
     scoring.write_card_table(card, SCORES)
