@@ -14,6 +14,7 @@
 #include "lrrt/map/footprint.hpp"
 #include "lrrt/ompl/guide.hpp"
 #include "lrrt/ompl/map_search.hpp"
+#include "lrrt/ompl/suitable_range.hpp"
 #include "lrrt/stopwatch.hpp"
 
 namespace lrrt {
@@ -159,8 +160,10 @@ PlanResult Planner::plan(const PlanRequest& request) const {
   }
 
   Stopwatch search_watch;
+  PlanOptions options = options_;
+  if (options.range == 0.0) options.range = suitable_range(*collision);
   MapSearch search(collision, request.start, request.goal,
-                   sampler_for(*collision, result.region.get(), request, options_), options_, request.cancel);
+                   sampler_for(*collision, result.region.get(), request, options), options, request.cancel);
   result.timings.prepare += search_watch.lap_ms();
   search.run(result);
   result.timings.total = watch.total_ms();

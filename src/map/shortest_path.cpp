@@ -76,10 +76,15 @@ void check(const ClearanceCost& clearance) {
   throw RequestError(text.str());
 }
 
+bool is_plain(const ClearanceCost& clearance) {
+  return clearance.distance <= 0.0 || clearance.weight <= 0.0;
+}
+
 /// Cost of a unit of length at every pixel; empty where it is 1 everywhere.
-std::vector<float> unit_costs(const OccupancyMap& map, const ClearanceCost& clearance) {
-  if (clearance.distance <= 0.0 || clearance.weight <= 0.0) return {};
-  std::vector<float> costs = DistanceField(map).values();
+/// @param distances of the pixels to the nearest obstacle.
+std::vector<float> unit_costs(const std::vector<float>& distances, const ClearanceCost& clearance) {
+  if (is_plain(clearance)) return {};
+  std::vector<float> costs = distances;
   for (float& value : costs) {
     const double lack = std::max(0.0, 1.0 - std::max(0.0, value - 1.0) / clearance.distance);
     value = static_cast<float>(1.0 + clearance.weight * lack * lack);
@@ -109,7 +114,8 @@ Eigen::Vector2d middle(Pixel p) {
 std::vector<Pixel> shortest_path(const OccupancyMap& map, Pixel start, Pixel goal, const ClearanceCost& clearance) {
   check(clearance);
   if (!map.is_free(start) || !map.is_free(goal)) return {};
-  const std::vector<float> costs = unit_costs(map, clearance);
+  const std::vector<float> costs =
+      is_plain(clearance) ? std::vector<float>{} : unit_costs(DistanceField(map).values(), clearance);
   std::vector<float> cost(map.size(), unreached);
   std::vector<std::int8_t> arrived_by(map.size(), -1);
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
@@ -139,8 +145,8 @@ std::vector<Eigen::Vector2d> smoothed(const OccupancyMap& map, const std::vector
   check(clearance);
   if (path.empty()) return {};
   constexpr double rounding = 1e-6;
-  const std::vector<float> costs = unit_costs(map, clearance);
   const DistanceField field(map);
+  const std::vector<float> costs = unit_costs(field.values(), clearance);
   const SegmentWalk walk(field);
   std::vector<Eigen::Vector2d> corners{middle(path.front())};
   double along = 0.0;  // cost of the pixel path from the last corner on

@@ -9,6 +9,7 @@
 
 #include <limits>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -117,7 +118,10 @@ MixedSampler make_sampler(const CollisionMap& map, const PromisingRegion& region
   const OccupancyMap& grid = map.map();
   const Pixel from = free_pixel(grid, start, "start");
   const Pixel to = free_pixel(grid, goal, "goal");
-  const PromisingRegion bridged = region.bridged(grid, from, to);
+  region.check_belongs_to(grid);
+  std::optional<PromisingRegion> mended;
+  if (!region.connected()) mended = region.bridged(grid, from, to);
+  const PromisingRegion& bridged = mended ? *mended : region;
   std::unique_ptr<SamplingStrategy> guided;
   if (options.strategy == Strategy::frontier && bridged.connected()) {
     const double range = options.range > 0.0 ? options.range : suitable_range(map);

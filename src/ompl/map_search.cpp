@@ -14,7 +14,6 @@
 #include "lrrt/error.hpp"
 #include "lrrt/map/shortest_path.hpp"
 #include "lrrt/ompl/guide.hpp"
-#include "lrrt/ompl/suitable_range.hpp"
 
 namespace lrrt {
 namespace {
@@ -84,8 +83,7 @@ MapSearch::MapSearch(std::shared_ptr<const CollisionMap> map, const Eigen::Vecto
   objective->setCostThreshold(target_cost());
   problem_->setOptimizationObjective(objective);
 
-  const double range = options_.range > 0.0 ? options_.range : suitable_range(*map_);
-  planner_ = make_planner(options_.planner, si_, {range, options_.goal_bias, planner_seed(options_.seed)});
+  planner_ = make_planner(options_.planner, si_, {options_.range, options_.goal_bias, planner_seed(options_.seed)});
   planner_.planner->setProblemDefinition(problem_);
   source_ = guide(*planner_.planner, map_, std::move(sampler), projection_);
   planner_.planner->setup();

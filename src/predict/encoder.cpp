@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
-#include <sstream>
 #include <string>
 
+#include "free_pixel.hpp"
 #include "lrrt/error.hpp"
 #include "lrrt/map/flood.hpp"
 
@@ -15,17 +15,6 @@ namespace {
 
 cv::Rect to_rect(const PixelBox& box) {
   return {box.c, box.r, box.width, box.height};
-}
-
-Pixel free_pixel(const OccupancyMap& map, const Eigen::Vector2d& point, const char* name) {
-  const Pixel pixel = OccupancyMap::pixel_of(map.to_pixel(point));
-  if (!map.is_free(pixel)) {
-    std::ostringstream text;
-    text << name << " (" << point.x() << ", " << point.y() << ") does not lie on a free pixel of the " << map.width()
-         << "×" << map.height() << " map: choose a free point, in map units";
-    throw RequestError(text.str());
-  }
-  return pixel;
 }
 
 /// The box of the components of start and goal, one pixel wider where the map goes on.

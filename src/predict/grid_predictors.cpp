@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "free_pixel.hpp"
 #include "lrrt/error.hpp"
 #include "lrrt/map/distance_field.hpp"
 #include "lrrt/map/shortest_path.hpp"
@@ -14,15 +15,6 @@
 
 namespace lrrt {
 namespace {
-
-Pixel pixel_at(const OccupancyMap& map, const Eigen::Vector2d& point, const char* name) {
-  const Pixel pixel = OccupancyMap::pixel_of(map.to_pixel(point));
-  if (map.is_free(pixel)) return pixel;
-  std::ostringstream text;
-  text << name << " (" << point.x() << ", " << point.y() << ") does not lie on a free pixel of the " << map.width()
-       << "×" << map.height() << " map: choose a free point, in map units";
-  throw RequestError(text.str());
-}
 
 void check_length(const char* name, double value) {
   if (value >= 0.0 && std::isfinite(value)) return;
@@ -82,7 +74,7 @@ std::vector<Pixel> descend(const OccupancyMap& map, const DistanceField& field, 
 Prediction GivenRegion::predict(const OccupancyMap& map, const Eigen::Vector2d& start,
                                 const Eigen::Vector2d& goal) const {
   const Stopwatch watch;
-  PromisingRegion region(map, probability_, pixel_at(map, start, "start"), pixel_at(map, goal, "goal"), threshold_);
+  PromisingRegion region(map, probability_, free_pixel(map, start, "start"), free_pixel(map, goal, "goal"), threshold_);
   PredictTimings timings;
   timings.region = watch.total_ms();
   return {std::move(region), timings};
@@ -94,8 +86,8 @@ AStarPredictor::AStarPredictor(double radius) : radius_(radius) {
 
 Prediction AStarPredictor::predict(const OccupancyMap& map, const Eigen::Vector2d& start,
                                    const Eigen::Vector2d& goal) const {
-  const Pixel from = pixel_at(map, start, "start");
-  const Pixel to = pixel_at(map, goal, "goal");
+  const Pixel from = free_pixel(map, start, "start");
+  const Pixel to = free_pixel(map, goal, "goal");
   const Stopwatch watch;
   const std::vector<Pixel> path = shortest_path(map, from, to);
   PredictTimings timings;
@@ -110,8 +102,8 @@ PotentialFieldPredictor::PotentialFieldPredictor(double radius, double reach) : 
 
 Prediction PotentialFieldPredictor::predict(const OccupancyMap& map, const Eigen::Vector2d& start,
                                             const Eigen::Vector2d& goal) const {
-  const Pixel from = pixel_at(map, start, "start");
-  const Pixel to = pixel_at(map, goal, "goal");
+  const Pixel from = free_pixel(map, start, "start");
+  const Pixel to = free_pixel(map, goal, "goal");
   const Stopwatch watch;
   const DistanceField field(map);
   const std::vector<Pixel> forth = descend(map, field, from, to, reach_);

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-#include <array>
 #include <deque>
 #include <limits>
 #include <string>
 
+#include "gap.hpp"
 #include "lrrt/error.hpp"
 #include "lrrt/region/promising_region.hpp"
 
 namespace lrrt {
 namespace {
 
-constexpr std::array<Pixel, 4> sides = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
 constexpr std::int32_t unreached = std::numeric_limits<std::int32_t>::max();
 
 /// Search over free pixels where a step inside the mask costs 0 and any other costs 1, with a double-ended queue
@@ -38,39 +36,21 @@ std::vector<Pixel> cheapest_detour(const OccupancyMap& map, const std::vector<st
     }
   }
   if (cost[map.index(goal)] == unreached) return {};
-  std::vector<Pixel> way{goal};
-  while (way.back() != start) {
-    const Pixel side = sides[arrived_by[map.index(way.back())]];
-    way.push_back({way.back().c - side.c, way.back().r - side.r});
-  }
-  return way;
+  return way_back(map, arrived_by, start, goal);
 }
 
 }  // namespace
 
 PromisingRegion PromisingRegion::bridged(const OccupancyMap& map, Pixel start, Pixel goal, int halo) const {
-  if (map.width() != width_ || map.height() != height_) {
-    throw RequestError("a region of " + std::to_string(width_) + "×" + std::to_string(height_) +
-                       " pixels cannot be bridged on a map of " + std::to_string(map.width()) + "×" +
-                       std::to_string(map.height()) + ": give the map it was predicted for");
-  }
+  check_belongs_to(map);
   if (halo < 0) throw RequestError("halo of " + std::to_string(halo) + " pixels: expected zero or more");
   if (connected_ || !map.is_free(start) || !map.is_free(goal)) return *this;
-  halo = std::min(halo, std::max(width_, height_));
   const std::vector<Pixel> way = cheapest_detour(map, mask_, start, goal);
   PromisingRegion result = *this;
-  for (const Pixel p : way) {
-    if (mask_[map.index(p)] != 0) continue;
-    result.bridge_.push_back(p);
-    for (int r = std::max(0, p.r - halo); r <= std::min(height_ - 1, p.r + halo); ++r) {
-      for (int c = std::max(0, p.c - halo); c <= std::min(width_ - 1, p.c + halo); ++c) {
-        std::uint8_t& pixel = result.mask_[map.index({c, r})];
-        if (pixel != 0 || !map.is_free({c, r})) continue;
-        pixel = 1;
-        ++result.bridge_area_;
-      }
-    }
-  }
+  const std::vector<Pixel> gap = gap_of(map, way, mask_);
+  const std::size_t joined = close_gap(map, gap, halo, result.mask_, [](Pixel, Pixel) { return true; });
+  result.bridge_.insert(result.bridge_.end(), gap.begin(), gap.end());
+  result.bridge_area_ += joined;
   result.area_ += result.bridge_area_;
   result.connected_ = !way.empty();
   return result;

@@ -36,4 +36,11 @@ PromisingRegion::PromisingRegion(const OccupancyMap& map, std::vector<float> pro
   connected_ = Flood(mask_, width_, height_, start).reached(goal);
 }
 
+void PromisingRegion::check_belongs_to(const OccupancyMap& map) const {
+  if (map.width() == width_ && map.height() == height_) return;
+  throw RequestError("a region of " + std::to_string(width_) + "×" + std::to_string(height_) +
+                     " pixels does not belong to a map of " + std::to_string(map.width()) + "×" +
+                     std::to_string(map.height()) + ": give the map it was predicted for");
+}
+
 }  // namespace lrrt

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "lrrt/error.hpp"
 
@@ -27,23 +28,15 @@ constexpr double corner_share = 0.5;
 constexpr int most_tries = 8;
 constexpr double tau = 6.283185307179586;
 
-Eigen::Vector2d point_in(Pixel pixel, Random& random) {
-  const double x = pixel.c + random.uniform();
-  return {x, pixel.r + random.uniform()};
-}
-
 }  // namespace
 
 FrontierStrategy::Front FrontierStrategy::make_front(const Geodesic& to_other, const Geodesic& from_own, Pixel root,
-                                                     std::int32_t most_detour, int width, int height) {
+                                                     std::int32_t most_detour) {
   Front front;
-  front.to_other.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), Geodesic::unreached);
   const std::int32_t whole = to_other.at(root);
   front.horizon = whole;
   for (const Pixel p : to_other.reached()) {
     const std::int32_t distance = to_other.at(p);
-    front.to_other[static_cast<std::size_t>(p.r) * static_cast<std::size_t>(width) + static_cast<std::size_t>(p.c)] =
-        distance;
     const std::int32_t behind = from_own.at(p);
     if (behind == Geodesic::unreached || distance + behind - whole > most_detour) continue;
     const auto whole_pixels = static_cast<std::size_t>(distance * Geodesic::unit);
@@ -63,15 +56,19 @@ FrontierStrategy::FrontierStrategy(const PromisingRegion& region, Pixel start, P
       tree_of_(region.mask().size(), 0) {
   if (!(step_ > 0.0))
     throw RequestError("a planner's step of " + std::to_string(step_) + " pixels: expected more than 0");
-  const Geodesic to_goal(region.mask(), width_, height_, goal);
-  const Geodesic to_start(region.mask(), width_, height_, start);
+  Geodesic to_goal(region.mask(), width_, height_, goal);
+  Geodesic to_start(region.mask(), width_, height_, start);
   const std::int32_t whole = to_goal.at(start);
   if (whole == Geodesic::unreached) {
     throw RequestError("the promising region does not join start and goal: bridge its gaps first");
   }
   const auto most_detour = static_cast<std::int32_t>(detour_share * whole + detour_steps * step_ / Geodesic::unit);
-  fronts_[0] = make_front(to_goal, to_start, start, most_detour, width_, height_);
-  if (trees_ == 2) fronts_[1] = make_front(to_start, to_goal, goal, most_detour, width_, height_);
+  fronts_[0] = make_front(to_goal, to_start, start, most_detour);
+  if (trees_ == 2) {
+    fronts_[1] = make_front(to_start, to_goal, goal, most_detour);
+    fronts_[1].to_other = std::move(to_start);
+  }
+  fronts_[0].to_other = std::move(to_goal);
   tree_of_[index(start)] |= 1U;
   tree_of_[index(goal)] |= 2U;
 }
@@ -112,8 +109,7 @@ Eigen::Vector2d FrontierStrategy::draw_on_path(Random& random) {
 }
 
 bool FrontierStrategy::contains(const Eigen::Vector2d& point) const {
-  const Pixel p = OccupancyMap::pixel_of(point);
-  return inside(p) && fronts_[0].to_other[index(p)] != Geodesic::unreached;
+  return fronts_[0].to_other.at(OccupancyMap::pixel_of(point)) != Geodesic::unreached;
 }
 
 bool FrontierStrategy::improved(const std::vector<Eigen::Vector2d>& path, double length) {
@@ -137,7 +133,7 @@ void FrontierStrategy::connected(const Eigen::Vector2d& from, const Eigen::Vecto
   if (!path_.empty()) return;
   for (std::size_t tree = 0; tree < trees_; ++tree) {
     if ((trees >> tree & 1U) == 0) continue;
-    const std::int32_t distance = fronts_[tree].to_other[index(fresh)];
+    const std::int32_t distance = fronts_[tree].to_other.at(fresh);
     if (distance == Geodesic::unreached || distance >= fronts_[tree].horizon) continue;
     fronts_[tree].horizon = distance;
     stalled_ = 0;

@@ -21,9 +21,7 @@ RegionStrategy::RegionStrategy(const PromisingRegion& region)
 Eigen::Vector2d RegionStrategy::draw(Random& random) {
   const bool from_bridge = !bridge_.empty() && random.uniform() < 0.5;
   const std::vector<Pixel>& pixels = from_bridge ? bridge_ : pixels_;
-  const Pixel pixel = pixels[random.index(pixels.size())];
-  const double x = pixel.c + random.uniform();
-  return {x, pixel.r + random.uniform()};
+  return point_in(pixels[random.index(pixels.size())], random);
 }
 
 bool RegionStrategy::contains(const Eigen::Vector2d& point) const {

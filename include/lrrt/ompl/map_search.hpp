@@ -17,7 +17,7 @@ namespace lrrt {
 /// One search of an OMPL planner in the plane of a map: exact collision checks, guided samples, own termination.
 class MapSearch {
  public:
-  /// @param start,goal map units, both free.
+  /// @param start,goal map units, both free. @param options with a range above 0, see suitable_range().
   MapSearch(std::shared_ptr<const CollisionMap> map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
             MixedSampler sampler, const PlanOptions& options, CancelToken cancel);
 

@@ -17,6 +17,8 @@ class Geodesic {
   static constexpr std::int32_t unreached = -1;
   static constexpr double unit = 1.0 / 5.0;  ///< pixels per counted step
 
+  /// Nothing is reached.
+  Geodesic() = default;
   /// @param mask row-major, not 0 where a pixel belongs to the set; width × height values.
   Geodesic(const std::vector<std::uint8_t>& mask, int width, int height, Pixel source);
 
@@ -29,8 +31,8 @@ class Geodesic {
   const std::vector<Pixel>& reached() const { return reached_; }
 
  private:
-  int width_;
-  int height_;
+  int width_ = 0;
+  int height_ = 0;
   std::vector<std::int32_t> distance_;
   std::vector<Pixel> reached_;
 };

@@ -35,6 +35,9 @@ class PromisingRegion {
   /// The middle lines of the bridges: the pixels of the way from start to goal that the prediction lacked.
   const std::vector<Pixel>& bridge() const { return bridge_; }
 
+  /// @throws RequestError when the map has another size than the one the region was made for.
+  void check_belongs_to(const OccupancyMap& map) const;
+
   /// The region with its weak spots taken in: where the threshold leaves start and goal apart, the pixels on the way
   /// whose least probability is the highest join it, and their neighbours that are at least as probable as `lowest`. It
   /// is what a threshold that sinks until start and goal meet would find, without what it would add elsewhere.

@@ -56,14 +56,14 @@ class FrontierStrategy final : public SamplingStrategy {
  private:
   /// One tree's order of the region's pixels and how far it has come.
   struct Front {
-    std::vector<std::int32_t> to_other;  ///< per pixel of the map: distance to the other tree's root, or unreached
-    std::vector<Pixel> pixels;           ///< those that take part, nearest to the other root first
-    std::vector<std::size_t> first;      ///< first[d]: index of the first pixel with a distance of at least d pixels
+    Geodesic to_other;               ///< walking distance to the other tree's root
+    std::vector<Pixel> pixels;       ///< those that take part, nearest to the other root first
+    std::vector<std::size_t> first;  ///< first[d]: index of the first pixel with a distance of at least d pixels
     std::int32_t horizon = 0;
   };
 
-  static Front make_front(const Geodesic& to_other, const Geodesic& from_own, Pixel root, std::int32_t most_detour,
-                          int width, int height);
+  /// A front without its distances.
+  static Front make_front(const Geodesic& to_other, const Geodesic& from_own, Pixel root, std::int32_t most_detour);
   Eigen::Vector2d draw_ahead(Random& random);
   Eigen::Vector2d draw_on_path(Random& random);
   bool inside(Pixel p) const { return p.c >= 0 && p.r >= 0 && p.c < width_ && p.r < height_; }

@@ -9,6 +9,12 @@
 
 namespace lrrt {
 
+/// A random point inside a pixel, pixel coordinates: pixel centres would repeat and coincide with nodes of a tree.
+inline Eigen::Vector2d point_in(Pixel pixel, Random& random) {
+  const double x = pixel.c + random.uniform();
+  return {x, pixel.r + random.uniform()};
+}
+
 /// Draws points of a map. Knows no planner: a point is a position in pixel coordinates.
 class SamplingStrategy {
  public:
