@@ -63,6 +63,9 @@ class Pool {
 /// Below this probability a pixel never joins a region, whatever it would link.
 inline constexpr float lowest_probability = 0.02F;
 
+/// Half the width of a link, pixels of the network's input.
+inline constexpr double link_halo = 3.0;
+
 /// Arguments of RegionPredictor::predict.
 struct RegionQuery {
   const OccupancyMap& map;
@@ -81,13 +84,14 @@ Prediction predict_region(const ModelInfo& info, const Encoder& encoder, const R
   timings.encode = watch.lap_ms();
   const float* output = run();
   timings.infer = watch.lap_ms();
-  PromisingRegion region(query.map, fit.to_map(output + info.promising * plane_size(info)),
-                         OccupancyMap::pixel_of(query.map.to_pixel(query.start)),
-                         OccupancyMap::pixel_of(query.map.to_pixel(query.goal)), info.threshold);
+  const Pixel start = OccupancyMap::pixel_of(query.map.to_pixel(query.start));
+  const Pixel goal = OccupancyMap::pixel_of(query.map.to_pixel(query.goal));
+  PromisingRegion region(query.map, fit.to_map(output + info.promising * plane_size(info)), start, goal,
+                         info.threshold);
   if (!region.connected()) {
-    region = region.linked(query.map, OccupancyMap::pixel_of(query.map.to_pixel(query.start)),
-                           OccupancyMap::pixel_of(query.map.to_pixel(query.goal)), lowest_probability);
+    region = region.linked(query.map, start, goal, lowest_probability, static_cast<int>(link_halo / fit.scale));
   }
+  region.drop_loose_parts(start);
   timings.region = watch.lap_ms();
   return {std::move(region), timings};
 }

@@ -36,6 +36,12 @@ PromisingRegion::PromisingRegion(const OccupancyMap& map, std::vector<float> pro
   connected_ = Flood(mask_, width_, height_, start).reached(goal);
 }
 
+void PromisingRegion::drop_loose_parts(Pixel start) {
+  if (!connected_) return;
+  mask_ = Flood(mask_, width_, height_, start).take();
+  area_ = static_cast<std::size_t>(std::count(mask_.begin(), mask_.end(), std::uint8_t{1}));
+}
+
 void PromisingRegion::check_belongs_to(const OccupancyMap& map) const {
   if (map.width() == width_ && map.height() == height_) return;
   throw RequestError("a region of " + std::to_string(width_) + "×" + std::to_string(height_) +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -140,6 +141,34 @@ TEST(PromisingRegion, NothingBelowTheLowestProbabilityIsLinked) {
   EXPECT_THROW(region.linked(map, {0, 0}, {4, 0}, 1.5F), RequestError);
   EXPECT_THROW(region.linked(map, {0, 0}, {4, 0}, 0.1F, -1), RequestError);
   EXPECT_THROW(region.linked(test::map_from_rows({"."}), {0, 0}, {0, 0}, 0.1F), RequestError);
+}
+
+TEST(PromisingRegion, OnlyLoosePartsAreDropped) {
+  Random random(43);
+  int dropped = 0;
+  for (int i = 0; i < 200; ++i) {
+    const OccupancyMap map = test::random_map(random, 3, 20);
+    const Pixel start = OccupancyMap::pixel_of(test::random_free_point(map, random));
+    const Pixel goal = OccupancyMap::pixel_of(test::random_free_point(map, random));
+    std::vector<float> probability(map.size());
+    for (float& p : probability) p = static_cast<float>(random.uniform(0.2, 1.0));
+    const PromisingRegion whole(map, probability, start, goal);
+    PromisingRegion region = whole;
+    region.drop_loose_parts(start);
+    EXPECT_EQ(region.connected(), whole.connected());
+    EXPECT_EQ(region.area(),
+              static_cast<std::size_t>(std::count(region.mask().begin(), region.mask().end(), std::uint8_t{1})));
+    if (!whole.connected()) {
+      EXPECT_EQ(region.mask(), whole.mask());
+      continue;
+    }
+    std::vector<Cell> cells = map.cells();
+    for (std::size_t k = 0; k < cells.size(); ++k) cells[k] = whole.mask()[k] != 0 ? Cell::free : Cell::occupied;
+    const std::vector<std::uint8_t> expected = test::flood(map.with_cells(cells), start);
+    for (std::size_t k = 0; k < cells.size(); ++k) EXPECT_EQ(region.mask()[k] != 0, expected[k] != 0);
+    dropped += static_cast<int>(region.area() < whole.area());
+  }
+  EXPECT_GT(dropped, 5);
 }
 
 TEST(PromisingRegion, SizesAndThresholdsAreChecked) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "lrrt/map/components.hpp"
@@ -22,6 +23,8 @@ class Flood {
     return reached_[static_cast<std::size_t>(p.r) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(p.c)] !=
            0;
   }
+  /// Row-major, 1 where a pixel was reached; the flood is empty afterwards.
+  std::vector<std::uint8_t> take() { return std::move(reached_); }
   /// Smallest box that holds what was reached.
   const PixelBox& box() const { return box_; }
 

@@ -46,6 +46,10 @@ class PromisingRegion {
   /// @throws RequestError when the map has another size or an argument is out of range.
   PromisingRegion linked(const OccupancyMap& map, Pixel start, Pixel goal, float lowest, int halo = 3) const;
 
+  /// Takes out of the mask what does not hang together with the start: no path to the goal runs there without leaving
+  /// the region. A region that does not join start and goal stays whole, since any part may be a stepping stone.
+  void drop_loose_parts(Pixel start);
+
   /// The region with its gaps closed: start and goal are joined along the way that leaves the mask for the fewest
   /// pixels, and that way is widened within free space. Predicted regions do break, and a broken one guides into a dead
   /// end.
