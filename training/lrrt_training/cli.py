@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 DATA = Path("data_cache")
 EXTERNAL = Path("../../shared/maps")
 MODEL = Path("../models/default.onnx")
+PAGE = Path("../docs/prediction.md")
 CALIBRATION_PICTURES = 128  #: training pictures that show the quantizer the range of the activations
 
 app = typer.Typer(
@@ -43,6 +44,8 @@ def train(
     try:
         folder = run(["--config", str(config), *context.args])
         rank_zero_only(typer.echo)(f"trained: {folder}")
+    except FileNotFoundError as error:
+        raise typer.BadParameter(str(error)) from error
     except KeyboardInterrupt as stop:
         typer.echo(str(stop) or "interrupted; the same command goes on", err=True)
         raise typer.Exit(130) from None
@@ -140,6 +143,7 @@ def evaluate(
     data: Annotated[Path, typer.Option(help="Folder of the mazes.")] = DATA,
     external: Annotated[Path, typer.Option(help="Folder of maps of other sources.")] = EXTERNAL,
     threads: Annotated[int, typer.Option(help="Threads of ONNX Runtime.")] = 2,
+    raw: Annotated[bool, typer.Option(help="Score what the threshold alone marks: no link, no part dropped.")] = False,
     record: Annotated[bool, typer.Option(help="Write the scores to manifest.json and the model card.")] = False,
     sheet: Annotated[Path | None, typer.Option(help="Also write a contact sheet of predictions (PNG).")] = None,
 ) -> None:
@@ -149,19 +153,43 @@ def evaluate(
     from . import evaluate as scoring
 
     predictor = _predictor(model, threads)
+    if record and raw:
+        raise typer.BadParameter("--record --raw: only the scores of what users get are recorded")
     if record:
         try:
-            scoring.check_card(model.parent / "README.md")
+            scoring.split_at_marks(model.parent / "README.md")
         except ValueError as error:
             raise typer.BadParameter(f"--record: {error}") from error
     groups = _groups(data, external, split, _levels(levels), families, predictor.info.input_size)
-    scores = scoring.evaluate(predictor, groups, maps, split)
+    scores = scoring.evaluate(predictor, groups, maps, split, raw)
     Console().print(scoring.rich_table(f"{model.name}, {split} maps", scores))
     if record:
         scoring.write_manifest(model.parent, model, scores, split)
-        scoring.write_card_table(model.parent / "README.md", scores)
+        scoring.write_between_marks(model.parent / "README.md", scoring.markdown_table(scores))
     if sheet is not None:
         scoring.contact_sheet(predictor, groups, sheet, split=split)
+
+
+@app.command()
+def study(
+    runs: Annotated[list[Path], typer.Argument(help="Folders of the runs to compare.", exists=True, file_okay=False)],
+    levels: Annotated[str, typer.Option(help="Levels, e.g. 21-49 or 21,35.")] = "21-49",
+    maps: Annotated[int, typer.Option(help="Test maps a level.", min=1)] = 1000,
+    page: Annotated[Path, typer.Option(help="Page that receives the table; the figure goes beside it.")] = PAGE,
+    data: Annotated[Path, typer.Option(help="Folder of the mazes.")] = DATA,
+) -> None:
+    """The paper's study: accuracy, redundancy and connectivity of several networks against the maze level."""
+    from . import evaluate as scoring
+    from . import study as studies
+
+    chosen = _levels(levels)
+    try:
+        scoring.split_at_marks(page, studies.MARKS)
+        results = {run.name: studies.scores_of(run, MazeStore(data), chosen, maps) for run in runs}
+    except (FileNotFoundError, ValueError) as error:
+        raise typer.BadParameter(str(error)) from error
+    studies.write(page, results)
+    typer.echo(f"{page}: {len(results)} networks, {len(chosen)} levels, {maps} maps each")
 
 
 def _predictor(model: Path, threads: int = 0) -> lrrt.OnnxPredictor:

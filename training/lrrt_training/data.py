@@ -15,7 +15,7 @@ from torch.utils.data import DataLoader, Dataset, Sampler
 
 import lrrt
 
-from . import families
+from .families import FAMILIES
 from .families.external import ExternalMaps
 from .metrics import GOAL, OBSTACLE, START
 from .scenes import Scene, SceneSource
@@ -35,8 +35,17 @@ class Stage:
     levels: list[int]  #: maze levels, blocks a side
     learning_rate: float = 1e-3  #: highest
     pixel_share: float = 0.5  #: share of the mazes with several map pixels a block
+    braided_share: float = 0.0  #: share of the mazes that get more loops than they have in the store
     family_share: float = 0.0  #: share of the samples from map families
+    families: list[str] = field(
+        default_factory=lambda: list(FAMILIES)
+    )  #: drawn from; one named twice comes twice as often
     external_share: float = 0.0  #: share of the samples from external maps (0 where there are none)
+
+    def __post_init__(self) -> None:
+        unknown = sorted(set(self.families) - set(FAMILIES))
+        if unknown or not self.families:
+            raise ValueError(f"families {unknown}: expected at least one of {', '.join(FAMILIES)}")
 
     def learning_rate_at(self, progress: float) -> float:
         """Learning rate at a share of the stage in [0, 1]: a short rise, then half a cosine down to 0."""
@@ -104,10 +113,11 @@ class SceneDataset(Dataset):
         outside = self.source.external.names()
         draw = rng.random()
         if draw < stage.family_share:
-            return self.source.family(rng, _one_of(rng, list(families.FAMILIES)), stage.size)
+            return self.source.family(rng, _one_of(rng, stage.families), stage.size)
         if outside and draw < stage.family_share + stage.external_share:
             return self.source.outside(rng, _one_of(rng, outside))
-        return self.source.maze(rng, _one_of(rng, stage.levels), stage.size, stage.pixel_share)
+        level = _one_of(rng, stage.levels)
+        return self.source.maze(rng, level, stage.size, stage.pixel_share, braided_share=stage.braided_share)
 
     def __getitem__(self, index: int) -> dict[str, Any]:
         size = self.curriculum.stages[self.curriculum.stage_at(index)].size

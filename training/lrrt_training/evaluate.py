@@ -30,7 +30,7 @@ from .store import SPLITS
 
 Groups = dict[str, Callable[..., Scene]]
 Scores = dict[str, dict[str, float]]
-CARD_BEGIN, CARD_END = "<!-- scores: written by the evaluate command -->", "<!-- end of scores -->"
+CARD_MARKS = ("<!-- scores: written by the evaluate command -->", "<!-- end of scores -->")
 
 
 def scene_of(groups: Groups, group: str, number: int, split: str) -> Scene:
@@ -49,15 +49,24 @@ class Judged:
         self.region = predictor.predict(grid, scene.start, scene.goal)
         self.label = scene.label(scale)
 
+    def by_threshold(self, threshold: float) -> np.ndarray:
+        """(H, W) bool, what the network alone marks: no link, no part dropped."""
+        return (self.region.probability >= threshold) & (self.label != OBSTACLE)
 
-def evaluate(predictor: lrrt.OnnxPredictor, groups: Groups, maps: int, split: str = "test") -> Scores:
-    """Scores on ``maps`` scenes of each group."""
+
+def evaluate(
+    predictor: lrrt.OnnxPredictor, groups: Groups, maps: int, split: str = "test", raw: bool = False
+) -> Scores:
+    """Scores on ``maps`` scenes of each group: of the library's regions, or with ``raw`` of the threshold alone."""
     metrics = RegionMetrics(list(groups))
     jobs = [(group, number) for group in groups for number in range(maps)]
     for group, number in track(jobs, description=f"{predictor.info.name}: {len(groups)} groups × {maps} maps"):
         judged = Judged(predictor, predictor.info.input_size, scene_of(groups, group, number, split))
-        region, label = torch.from_numpy(judged.region.mask.copy()), torch.from_numpy(judged.label)
-        metrics.update(region[None], label[None], [group], [judged.region.connected], [judged.region.link_area > 0])
+        linked = judged.region.link_area > 0
+        mask = judged.by_threshold(predictor.info.threshold) if raw else judged.region.mask.copy()
+        joined = judged.region.connected and not (raw and linked)
+        region, label = torch.from_numpy(mask), torch.from_numpy(judged.label)
+        metrics.update(region[None], label[None], [group], [joined], [joined and linked])
     return metrics.compute()
 
 
@@ -69,8 +78,7 @@ def metric_by_threshold(
     jobs = [(group, number) for group in groups for number in range(maps)]
     for group, number in track(jobs, description=f"{predictor.info.name}: {len(thresholds)} thresholds"):
         judged = Judged(predictor, predictor.info.input_size, scene_of(groups, group, number, "evaluation"))
-        free = judged.label != OBSTACLE
-        regions = torch.from_numpy(np.stack([(judged.region.probability >= t) & free for t in thresholds]))
+        regions = torch.from_numpy(np.stack([judged.by_threshold(t) for t in thresholds]))
         labels = torch.from_numpy(judged.label).expand(len(thresholds), -1, -1)
         sums[:, 0] += (1 - accuracy(regions, labels) + redundancy(regions, labels)).numpy()
         grid = judged.scene.occupancy_map()
@@ -136,27 +144,28 @@ def write_manifest(folder: Path, path: Path, scores: Scores, split: str) -> None
     _write(manifest_path, json.dumps(manifest, indent=1) + "\n")
 
 
-def check_card(card: Path) -> tuple[str, str]:
-    """What stands before and after the table of a model card.
+def split_at_marks(page: Path, marks: tuple[str, str] = CARD_MARKS) -> tuple[str, str]:
+    """What stands before and after the two marks around the table of a page.
 
     Raises:
-        ValueError: there is no card, or it lacks the marks around the table.
+        ValueError: there is no such page, or it lacks the marks.
     """
-    head, begin, rest = card.read_text().partition(CARD_BEGIN) if card.exists() else ("", "", "")
-    _, end, tail = rest.partition(CARD_END)
-    if not (begin and end):
-        raise ValueError(f"{card}: expected the lines '{CARD_BEGIN}' and '{CARD_END}' around the table")
+    begin, end = marks
+    head, found, rest = page.read_text().partition(begin) if page.exists() else ("", "", "")
+    _, ended, tail = rest.partition(end)
+    if not (found and ended):
+        raise ValueError(f"{page}: expected the lines '{begin}' and '{end}' around the table")
     return head, tail
 
 
-def write_card_table(card: Path, scores: Scores) -> None:
-    """Replaces the table between the two marks of a model card.
+def write_between_marks(page: Path, table: str, marks: tuple[str, str] = CARD_MARKS) -> None:
+    """Replaces the table between the two marks of a page.
 
     Raises:
-        ValueError: see check_card().
+        ValueError: see split_at_marks().
     """
-    head, tail = check_card(card)
-    _write(card, f"{head}{CARD_BEGIN}\n{markdown_table(scores)}\n{CARD_END}{tail}")
+    head, tail = split_at_marks(page, marks)
+    _write(page, f"{head}{marks[0]}\n{table}\n{marks[1]}{tail}")
 
 
 def contact_sheet(

@@ -11,6 +11,7 @@ import os
 import subprocess
 import tempfile
 import warnings
+import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -139,6 +140,31 @@ def _quiet() -> Iterator[None]:
         logging.getLogger().setLevel(before)
 
 
+def _take_bytes_as_quantized(graph: onnx.GraphProto) -> None:
+    """Lets a picture's bytes be the quantized input: byte / 255 quantized in steps of 1/255 is the byte again.
+
+    Without it the bytes are cast, divided and quantized on one thread before every prediction. A graph that begins in
+    another way, or whose calibration pictures had no white pixel, is left as it is.
+    """
+    followers = {name: node for node in graph.node for name in node.input}
+    chain = [followers.get("image")]
+    for _ in range(2):
+        chain.append(followers.get(chain[-1].output[0]) if chain[-1] is not None else None)
+    if [node.op_type if node is not None else "" for node in chain] != ["Cast", "Div", "QuantizeLinear"]:
+        return
+    constants = {i.name: onnx.numpy_helper.to_array(i) for i in graph.initializer}
+    scale, zero = (constants[name] for name in chain[2].input[1:])
+    if zero != 0 or not np.isclose(scale, 1 / 255):
+        return
+    for node in graph.node:
+        node.input[:] = ["image" if name == chain[2].output[0] else name for name in node.input]
+    for node in chain:
+        graph.node.remove(node)
+    used = {name for node in graph.node for name in node.input}
+    for unused in [i for i in graph.initializer if i.name not in used]:
+        graph.initializer.remove(unused)
+
+
 def export_int8(fp32: Path, path: Path, images: Tensor, threshold: float | None = None) -> None:
     """Quantizes an fp32 export: static, per channel, weights int8 and activations uint8 (QDQ).
 
@@ -165,7 +191,19 @@ def export_int8(fp32: Path, path: Path, images: Tensor, threshold: float | None 
             weight_type=quantization.QuantType.QInt8,
             op_types_to_quantize=QUANTIZED,
         )
-        save_onnx(onnx.load(quantized), path, properties)
+        model = onnx.load(quantized)
+        _take_bytes_as_quantized(model.graph)
+        save_onnx(model, path, properties)
+
+
+def _without_debug_records(archive: Path) -> None:
+    """Drops the records that map code to source lines: they name folders of the machine that exported."""
+    slim = archive.with_suffix(".slim")
+    with zipfile.ZipFile(archive) as source, zipfile.ZipFile(slim, "w", zipfile.ZIP_STORED) as target:
+        for entry in source.infolist():
+            if not entry.filename.endswith(".debug_pkl"):
+                target.writestr(entry, source.read(entry))
+    os.replace(slim, archive)
 
 
 def export_torchscript(network: nn.Module, path: Path, size: int, properties: dict[str, str]) -> None:
@@ -174,6 +212,7 @@ def export_torchscript(network: nn.Module, path: Path, size: int, properties: di
     with torch.inference_mode():
         traced = torch.jit.trace(_ready(network), torch.zeros(1, 3, size, size, dtype=torch.uint8))
         torch.jit.save(traced, str(temporary), _extra_files={METADATA_FILE: json.dumps(properties)})
+    _without_debug_records(temporary)
     os.replace(temporary, path)
 
 

@@ -181,11 +181,23 @@ class SceneSource:
     def __init__(self, store: MazeStore, external: ExternalMaps, split: str) -> None:
         self.store, self.external, self.split = store, external, split
 
-    def maze(self, rng: np.random.Generator, level: int, size: int, pixel_share: float, number: int = -1) -> MazeScene:
-        """A maze of a level: a random one, or that of a number (counted round)."""
+    def maze(
+        self,
+        rng: np.random.Generator,
+        level: int,
+        size: int,
+        pixel_share: float,
+        number: int = -1,
+        braided_share: float = 0.0,
+    ) -> MazeScene:
+        """A maze of a level: a random one, or that of a number (counted round); with probability ``braided_share`` a
+        random part of its dead ends is opened."""
         stored = self.store.mazes(self.split, level)
         number = int(rng.integers(len(stored))) if number < 0 else number % len(stored)
-        return random_maze_scene(rng, unpack(stored[number], level), size, pixel_share)
+        blocks = unpack(stored[number], level)
+        if braided_share > 0 and rng.random() < braided_share:
+            blocks = mazes.braid(rng, blocks, rng.uniform(0.1, 1.0))
+        return random_maze_scene(rng, blocks, size, pixel_share)
 
     def family(self, rng: np.random.Generator, family: str, size: int) -> MapScene:
         """A map of a family; its longer side is 0.4 to 1.6 times the network's input."""

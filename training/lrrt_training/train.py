@@ -94,6 +94,7 @@ class TrainingCLI(LightningCLI):
 
     def add_arguments_to_parser(self, parser: LightningArgumentParser) -> None:
         parser.add_argument("--name", type=str, default="unnamed", help="The run's folder is runs/NAME.")
+        parser.add_argument("--weights", type=str, default="", help="Checkpoint whose weights a new run starts from.")
         parser.add_argument("--save_every", type=float, default=120.0, help="Seconds between checkpoints.")
         parser.link_arguments("name", "trainer.default_root_dir", compute_fn=lambda name: f"runs/{name}")
 
@@ -131,12 +132,15 @@ def train(arguments: list[str]) -> Path:
     """Trains, or goes on from the run's own checkpoint. Takes LightningCLI's arguments. Returns the run's folder.
 
     Raises:
+        FileNotFoundError: there is no checkpoint at ``weights``.
         KeyboardInterrupt: Ctrl-C; the checkpoint was saved before.
     """
     warnings.filterwarnings("ignore", ".*your dataloader is not resumable")  # it is: by the number of the first sample
     cli = configured(arguments)
     folder = Path(cli.trainer.default_root_dir)
     checkpoint = folder / CHECKPOINT if (folder / CHECKPOINT).exists() else None
+    if checkpoint is None and cli.config.weights:
+        cli.model.network.load_state_dict(_network_weights(Path(cli.config.weights)))
     with contextlib.suppress(SystemExit):  # what Lightning makes of Ctrl-C
         cli.trainer.fit(cli.model, cli.datamodule, ckpt_path=checkpoint, weights_only=True)
     if cli.trainer.interrupted:
@@ -157,14 +161,20 @@ def _configuration(run: Path) -> dict[str, Any]:
     return configuration
 
 
+def _network_weights(checkpoint: Path) -> dict[str, torch.Tensor]:
+    if not checkpoint.exists():
+        raise FileNotFoundError(f"{checkpoint}: no checkpoint there; train the run that it belongs to first")
+    state = torch.load(checkpoint, weights_only=True, map_location="cpu")["state_dict"]
+    return {k.removeprefix("network."): v for k, v in state.items() if k.startswith("network.")}
+
+
 def load_network(run: Path) -> nn.Module:
     """The network of a run with its last weights, on the CPU, ready to predict."""
     parser = ArgumentParser()
     parser.add_argument("--network", type=nn.Module)
     chosen = parser.parse_object({"network": _configuration(run)["model"]["network"]})
     network: nn.Module = parser.instantiate_classes(chosen).network
-    state = torch.load(run / CHECKPOINT, weights_only=True, map_location="cpu")["state_dict"]
-    network.load_state_dict({k.removeprefix("network."): v for k, v in state.items() if k.startswith("network.")})
+    network.load_state_dict(_network_weights(run / CHECKPOINT))
     return network.eval()
 
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -14,9 +15,9 @@ import typer
 from helpers import write_config
 from typer.testing import CliRunner
 
-from lrrt_training import cli, export
+from lrrt_training import cli, export, study
 from lrrt_training import train as train_file
-from lrrt_training.evaluate import CARD_BEGIN, CARD_END
+from lrrt_training.evaluate import CARD_MARKS
 
 COMMANDS = ("generate", "train", "export", "calibrate", "evaluate")
 
@@ -97,7 +98,7 @@ def test_interrupted_training_tells_how_to_go_on(store, tmp_path, monkeypatch):
 
 def test_export_calibrate_then_evaluate(trained, store, tmp_path):
     model, card, sheet = tmp_path / "tiny.onnx", tmp_path / "README.md", tmp_path / "sheet.png"
-    card.write_text(f"{CARD_BEGIN}\n{CARD_END}\n")
+    card.write_text("\n".join(CARD_MARKS))
     result = call("export", trained, "--output", model, "--training-budget", "ten steps", "--torchscript")
     assert result.exit_code == 0, result.output
     assert {p.name for p in tmp_path.iterdir()} == {"README.md", "tiny.onnx", "tiny.pt"}
@@ -118,6 +119,31 @@ def test_export_calibrate_then_evaluate(trained, store, tmp_path):
     assert list(scores) == ["7", "9", "all"] and scores["9"]["count"] == 2
     assert "| 9 | " in card.read_text()
     assert sheet.stat().st_size > 1000
+    result = call("evaluate", model, *folders, "--levels", "7", "--raw", "--record")
+    assert (result.exit_code, "only the scores of what users get" in words(result.output)) == (2, True)
+
+
+def test_study_compares_runs(trained, store, tmp_path, monkeypatch):
+    monkeypatch.setattr(study, "CALIBRATION_MAPS", 2)
+    page, run = tmp_path / "prediction.md", shutil.copytree(trained, tmp_path / "tiny")
+    arguments = ("study", run, "--levels", "7,9", "--maps", "3", "--page", page, "--data", store.folder)
+    assert "expected the lines" in words(call(*arguments).output)
+    page.write_text("# Study\n" + "\n".join(study.MARKS) + "\nend\n")
+    result = call(*arguments)
+    assert result.exit_code == 0, result.output
+    numbers = json.loads(page.with_suffix(".json").read_text())[run.name]
+    assert numbers["trained"] == [7, 9] and numbers["threshold"] in study.THRESHOLDS
+    row = numbers["scores"]["9"]
+    assert row["count"] == 3
+    assert f"| 9 | {row['accuracy']:.3f} / {row['redundancy']:.3f} / " in page.read_text()
+    assert page.read_text().endswith("\nend\n")
+    assert page.with_suffix(".png").stat().st_size > 1000
+
+    def again(*_: object) -> None:
+        raise AssertionError("scored twice")
+
+    monkeypatch.setattr(study, "export_onnx", again)
+    assert call(*arguments).exit_code == 0, "what is known is kept"
 
 
 def test_export_to_int8(trained, tmp_path, monkeypatch):

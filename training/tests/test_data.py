@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import torch
-from helpers import path_of
+from helpers import free_edges, path_of
 from scipy import ndimage
 
 import lrrt
@@ -286,7 +286,7 @@ def test_shares_of_mazes_families_and_other_maps(store):
         external=samples.source.external,
         family=lambda rng, family, size: drawn.append(family),
         outside=lambda rng, name: drawn.append(name),
-        maze=lambda rng, level, size, share: drawn.append(str(level)),
+        maze=lambda rng, level, size, share, braided_share: drawn.append(str(level)),
     )
     for i in range(number):
         samples.scene(i)
@@ -305,6 +305,36 @@ def test_share_of_mazes_with_several_pixels_a_block(store):
     assert set(scales[:80]) == {1}
     assert 1 not in scales[80:160]
     assert abs(np.mean([s == 1 for s in scales[160:]]) - 0.5) < 4 * np.sqrt(0.25 / 80)
+
+
+def test_families_are_drawn_as_often_as_they_are_named(store):
+    samples = dataset(store, family_share=1.0, families=["city", "city", "city", "forest"])
+    drawn: list[str] = []
+    samples.source = SimpleNamespace(
+        split="train",
+        external=samples.source.external,
+        family=lambda rng, family, size: drawn.append(family),
+    )
+    for i in range(400):
+        samples.scene(i)
+    assert set(drawn) == {"city", "forest"}
+    assert abs(drawn.count("city") - 300) < 4 * np.sqrt(400 * 0.75 * 0.25)
+
+
+@pytest.mark.parametrize("wrong", [["castle"], []])
+def test_unknown_families_are_named(wrong):
+    with pytest.raises(ValueError, match="expected at least one of corridor_maze"):
+        Stage(64, 10, 5, [7], families=wrong)
+
+
+def test_share_of_mazes_that_get_loops(perfect_store):
+    def looped(share: float) -> list[bool]:
+        samples = dataset(perfect_store, levels=[13], pixel_share=0.0, braided_share=share)
+        blocks = [samples.scene(i).blocks for i in range(80)]
+        return [free_edges(b) >= (~b).sum() for b in blocks]
+
+    assert not any(looped(0.0))
+    assert abs(np.mean(looped(0.5)) - 0.5) < 4 * np.sqrt(0.25 / 80) + 0.05, "a braiding may open nothing"
 
 
 def test_without_other_maps_their_share_goes_to_mazes(store):

@@ -20,6 +20,7 @@ from lrrt_training.families.external import ExternalMaps
 from lrrt_training.scenes import MazeScene, SceneSource
 
 SIZE, MAPS = 64, 3
+BEGIN, END = scoring.CARD_MARKS
 PERFECT = {"accuracy": 1.0, "redundancy": 0.0, "metric": 0.0, "connectivity": 1.0, "linked": 0.0}
 SCORES = {
     "21": {"accuracy": 0.98764, "redundancy": 0.05, "metric": 0.0624, "connectivity": 0.9, "linked": 0.0, "count": 200},
@@ -123,6 +124,21 @@ def test_scores_against_a_slow_reference(groups):
     assert scores["all"]["connectivity"] <= np.mean([row[2] for row in rows]), "no corner is cut"
 
 
+def test_raw_scores_know_neither_links_nor_what_the_library_drops(groups, model):
+    """The library's regions join more often and hold what the threshold marks, but for parts that nothing joins."""
+    predictor = lrrt.OnnxPredictor(model, threads=1)
+    raw, whole = (scoring.evaluate(predictor, groups, MAPS, raw=raw)["all"] for raw in (True, False))
+    assert raw["linked"] == 0.0
+    assert raw["connectivity"] == pytest.approx(whole["connectivity"] - whole["linked"])
+    for group in groups:
+        for number in range(MAPS):
+            judged = scoring.Judged(predictor, SIZE, scoring.scene_of(groups, group, number, "test"))
+            alone = judged.by_threshold(predictor.info.threshold)
+            assert (alone == ((judged.region.probability >= predictor.info.threshold) & (judged.label != 1))).all()
+            if not judged.region.connected:
+                assert (alone == judged.region.mask).all()
+
+
 def test_the_threshold_belongs_to_the_region(groups):
     """A pixel is promising from the threshold on, as in the library."""
     at, below = (scoring.evaluate(Fake(groups, lambda lab, v=v: v * (lab == 2)), groups, MAPS) for v in (0.5, 0.4999))
@@ -195,26 +211,24 @@ def test_manifest_is_begun_where_there_is_none(model, tmp_path):
 
 def test_card_table_is_replaced(tmp_path):
     card = tmp_path / "README.md"
-    card.write_text(f"# Model\n\n{scoring.CARD_BEGIN}\nold\n{scoring.CARD_END}\n\nLimits.\n")
-    scoring.write_card_table(card, SCORES)
+    card.write_text(f"# Model\n\n{BEGIN}\nold\n{END}\n\nLimits.\n")
+    scoring.write_between_marks(card, scoring.markdown_table(SCORES))
     once = card.read_text()
     assert "old" not in once
     assert "| 21 | 0.988 | 0.050 | 0.062 | 90.0 % | 0.0 % | 200 |" in once
-    assert once.startswith(f"# Model\n\n{scoring.CARD_BEGIN}\n| maps |")
-    assert once.endswith(f"|\n{scoring.CARD_END}\n\nLimits.\n")
-    scoring.write_card_table(card, SCORES)
+    assert once.startswith(f"# Model\n\n{BEGIN}\n| maps |")
+    assert once.endswith(f"|\n{END}\n\nLimits.\n")
+    scoring.write_between_marks(card, scoring.markdown_table(SCORES))
     assert card.read_text() == once
 
 
-@pytest.mark.parametrize(
-    "text", ["# Model\n", f"{scoring.CARD_BEGIN}\n", f"{scoring.CARD_END}\n{scoring.CARD_BEGIN}\n"]
-)
+@pytest.mark.parametrize("text", ["# Model\n", f"{BEGIN}\n", f"{END}\n{BEGIN}\n"])
 def test_card_without_marks_is_an_error(tmp_path, text):
     card = tmp_path / "README.md"
     for content in (None, text):
         if content is not None:
             card.write_text(content)
-        for call in (scoring.check_card, lambda path: scoring.write_card_table(path, SCORES)):
+        for call in (scoring.split_at_marks, lambda path: scoring.write_between_marks(path, "table")):
             with pytest.raises(ValueError, match=r"README\.md: expected the lines"):
                 call(card)
     assert card.read_text() == text

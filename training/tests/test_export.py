@@ -175,6 +175,17 @@ def test_int8_file_is_quantized_and_smaller(quantized):
     assert int8.stat().st_size < 0.5 * fp32.stat().st_size
 
 
+@pytest.mark.parametrize("brightest", [255, 127])
+def test_bytes_are_the_quantized_input_where_their_range_is_whole(quantized, tmp_path, brightest):
+    pictures = images(3) // (256 // (brightest + 1))
+    export.export_int8(quantized[1], tmp_path / "m.onnx", pictures)
+    nodes = onnx.load(tmp_path / "m.onnx").graph.node
+    used = [node.op_type for node in nodes if node.op_type in ("Cast", "Div") or "image" in node.input]
+    assert used == (["DequantizeLinear"] if brightest == 255 else ["Cast", "Div"])
+    close = export.onnx_probabilities(tmp_path / "m.onnx", pictures) - export.own_probabilities(quantized[0], pictures)
+    assert np.abs(close).mean() < 0.05
+
+
 def test_int8_file_keeps_the_metadata(quantized):
     _, fp32, int8 = quantized
     before, after = export.properties_of(fp32), export.properties_of(int8)

@@ -220,6 +220,19 @@ def test_shipped_configs_are_complete(config, tmp_path, monkeypatch):
         assert stage.family_share + stage.external_share <= 1
 
 
+def test_a_run_starts_from_the_weights_of_another(trained, store, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    still = {"data.stages": [{"size": 64, "samples": 8, "batch_size": 4, "levels": [7], "learning_rate": 0.0}]}
+    config = write_config(tmp_path, store.folder, {**still, "name": "second", "weights": str(trained / CHECKPOINT)})
+    start, end = weights(trained), weights(train(["--config", str(config)]))
+    learned = [
+        name for name in start if name.startswith("network.") and ".running_" not in name and "batches" not in name
+    ]
+    assert learned and not [name for name in learned if not torch.equal(start[name], end[name])]
+    with pytest.raises(FileNotFoundError, match=r"nowhere\.ckpt: no checkpoint there"):
+        train(["--config", str(config), "--name", "third", "--weights", "nowhere.ckpt"])
+
+
 def test_callbacks_of_the_configuration_are_kept(store, tmp_path):
     config = write_config(tmp_path, store.folder, {"trainer.callbacks": {"class_path": "plain_network.KeepTrace"}})
     kinds = [type(callback).__name__ for callback in configured(["--config", str(config)]).trainer.callbacks]
