@@ -7,7 +7,7 @@
 SHELL := /bin/bash
 
 PRESET ?= release
-CONFIG ?= training/configs/default.yaml
+CONFIG ?= training/configs/fast.yaml
 MODEL ?= models/default.onnx
 SUITE ?= smoke
 BENCH_OPTIONS ?=
@@ -52,7 +52,7 @@ test: setup-training ## Run every test: C++, Python, training
 	@$(python) -m pytest -q -c training/pyproject.toml training/tests
 
 .PHONY: train
-train: setup-training ## Train a model: CONFIG=training/configs/default.yaml
+train: setup-training ## Train a model: CONFIG=training/configs/fast.yaml
 	@cd training && $(abspath $(python)) -m lrrt_training train --config $(abspath $(CONFIG))
 
 .PHONY: evaluate

@@ -23,8 +23,8 @@ CALIBRATION_PICTURES = 128  #: training pictures that show the quantizer the ran
 app = typer.Typer(
     no_args_is_help=True,
     add_completion=False,
-    help="Trains the network that marks promising regions.\n\nA whole run: train --config configs/default.yaml, "
-    "then export runs/default, then evaluate ../models/default.onnx --record.",
+    help="Trains the network that marks promising regions.\n\nA whole run: train --config configs/fast.yaml, "
+    "then export runs/fast, then evaluate ../models/default.onnx --record.",
 )
 
 

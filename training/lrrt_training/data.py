@@ -17,7 +17,7 @@ import lrrt
 
 from .families import FAMILIES
 from .families.external import ExternalMaps
-from .metrics import GOAL, OBSTACLE, START
+from .metrics import OBSTACLE
 from .scenes import Scene, SceneSource
 from .store import SPLITS, MazeStore
 
@@ -80,19 +80,12 @@ class Curriculum:
 
 
 def encoded(encoder: lrrt.Encoder, scene: Scene) -> dict[str, torch.Tensor]:
-    """A scene as the network sees it: ``image`` (3, S, S) uint8, ``label`` (S, S) uint8 classes and ``ends`` (S, S)
-    uint8 with the markers of start (1) and goal (2)."""
+    """A scene as the network sees it: ``image`` (3, S, S) uint8 and ``label`` (S, S) uint8 classes."""
     encoding = encoder.encode(scene.occupancy_map(), scene.start, scene.goal)
-    image = np.array(encoding.image)
-    red, blue = ((image == np.array(colour, np.uint8)[:, None, None]).all(axis=0) for colour in (_RED, _BLUE))
     return {
-        "image": torch.from_numpy(image),
+        "image": torch.from_numpy(np.array(encoding.image)),
         "label": torch.from_numpy(np.array(encoding.to_input(scene.label(encoding.scale), fill=OBSTACLE))),
-        "ends": torch.from_numpy((START * red + GOAL * blue).astype(np.uint8)),
     }
-
-
-_RED, _BLUE = (255, 0, 0), (0, 0, 255)  # of the markers: nothing else in a picture has a colour
 
 
 class SceneDataset(Dataset):

@@ -3,14 +3,11 @@
 
 from __future__ import annotations
 
-import numpy as np
 import torch
-from scipy import ndimage
 from torch import Tensor
 from torchmetrics import Metric
 
 OBSTACLE, PROMISING = 1, 2  #: class numbers in labels
-START, GOAL = 1, 2  #: values of the ``ends`` picture
 NAMES = ("accuracy", "redundancy", "metric", "connectivity", "linked")
 
 
@@ -25,20 +22,6 @@ def redundancy(region: Tensor, label: Tensor) -> Tensor:
     truth = label == PROMISING
     excess = region & ~truth & (label != OBSTACLE)
     return excess.flatten(1).sum(1) / truth.flatten(1).sum(1).clamp(min=1)
-
-
-def is_connected(region: np.ndarray, label: np.ndarray, ends: np.ndarray) -> bool:
-    """True if region ∩ free joins start and goal by steps to the four neighbours.
-
-    Args:
-        region: (H, W) bool, the predicted region.
-        label: (H, W) classes.
-        ends: (H, W), ``START`` and ``GOAL`` on the pixels of the start's and the goal's block, 0 elsewhere.
-    """
-    components, _ = ndimage.label(region & (label != OBSTACLE))
-    at_start = np.unique(components[ends == START])
-    at_goal = np.unique(components[ends == GOAL])
-    return bool(np.intersect1d(at_start[at_start > 0], at_goal[at_goal > 0]).size)
 
 
 class RegionMetrics(Metric):

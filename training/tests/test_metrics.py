@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import torch
 
-from lrrt_training.metrics import RegionMetrics, accuracy, is_connected, redundancy
+from lrrt_training.metrics import RegionMetrics, accuracy, redundancy
 
 # # obstacle, . free, * path, S and G path at the start and the goal
 MAP = """
@@ -19,12 +19,9 @@ MAP = """
 """
 
 
-def read(text: str) -> tuple[torch.Tensor, torch.Tensor]:
-    """Label and ends of a drawn map."""
-    rows = text.split()
-    label = [[".#*".index(c) if c in ".#*" else 2 for c in row] for row in rows]
-    ends = [[" SG".find(c) if c in "SG" else 0 for c in row] for row in rows]
-    return torch.tensor(label), torch.tensor(ends)
+def read(text: str) -> torch.Tensor:
+    """Label of a drawn map."""
+    return torch.tensor([[".#*".index(c) if c in ".#*" else 2 for c in row] for row in text.split()])
 
 
 def region(text: str) -> torch.Tensor:
@@ -32,7 +29,7 @@ def region(text: str) -> torch.Tensor:
     return torch.tensor([[c == "x" for c in row] for row in text.split()])
 
 
-LABEL, ENDS = read(MAP)
+LABEL = read(MAP)
 EXACT = region("..... .x... .x... .xx.. .....")
 GAP = region("..... .x... ..... .xx.. .....")
 WIDE = region("..... .xxx. .x.x. .xxx. .....")
@@ -52,42 +49,13 @@ def test_the_drawing_is_read_as_meant():
     assert LABEL.tolist()[1] == [1, 2, 0, 0, 1]
     assert (LABEL == 2).sum() == 4
     assert (LABEL == 1).sum() == 17
-    assert ENDS[1, 1] == 1
-    assert ENDS[3, 2] == 2
-    assert ENDS.sum() == 3
 
 
 @pytest.mark.parametrize("name", CASES)
 def test_by_hand(name):
-    predicted, right, excess, connected = CASES[name]
+    predicted, right, excess, _ = CASES[name]
     assert accuracy(predicted[None], LABEL[None]).tolist() == [right]
     assert redundancy(predicted[None], LABEL[None]).tolist() == [excess]
-    assert is_connected(predicted.numpy(), LABEL.numpy(), ENDS.numpy()) is connected
-
-
-def test_touching_corners_do_not_connect():
-    label, ends = read("##### #S.## #.G## #...# #####")
-    diagonal = region("..... .x... ..x.. ..... .....")
-    assert not is_connected(diagonal.numpy(), label.numpy(), ends.numpy())
-    diagonal[1, 2] = True
-    assert is_connected(diagonal.numpy(), label.numpy(), ends.numpy())
-
-
-def test_a_region_over_an_obstacle_does_not_connect():
-    label, ends = read("##### #S#G# #.#.# #...# #####")
-    through = region("..... .xxx. ..... ..... .....")
-    assert not is_connected(through.numpy(), label.numpy(), ends.numpy())
-    around = region("..... .x.x. .x.x. .xxx. .....")
-    assert is_connected(around.numpy(), label.numpy(), ends.numpy())
-
-
-def test_one_pixel_of_each_end_is_enough():
-    """A block has many pixels; the region may cover some of them only."""
-    label, ends = np.zeros((2, 6), dtype=int), np.array([[1, 1, 0, 0, 2, 2], [1, 1, 0, 0, 2, 2]])
-    predicted = np.array([[0, 1, 1, 1, 1, 0], [0, 0, 0, 0, 0, 0]], dtype=bool)
-    assert is_connected(predicted, label, ends)
-    predicted[0, 1] = False
-    assert not is_connected(predicted, label, ends)
 
 
 def test_a_map_without_path_is_no_division_by_zero():
