@@ -39,7 +39,7 @@ OccupancyMap inflated(OccupancyMap map, double radius) {
   // the other, so shrinking by one pixel turns the centre-to-centre transform into the square-to-square distance.
   const int width = map.width();
   const int height = map.height();
-  const std::vector<std::int64_t> squared_gap =
+  const std::vector<std::int32_t> squared_gap =
       squared_distances(shrunk(map.free_mask(), width, height), width, height);
   const double pixels = radius / map.resolution();
   std::vector<Cell> cells = map.cells();

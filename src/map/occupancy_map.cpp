@@ -114,6 +114,7 @@ Bounds OccupancyMap::bounds() const {
 }
 
 OccupancyMap OccupancyMap::resolved(UnknownIs meaning) const {
+  if (std::find(cells_.begin(), cells_.end(), Cell::unknown) == cells_.end()) return *this;
   std::vector<Cell> cells = cells_;
   std::replace(cells.begin(), cells.end(), Cell::unknown, meaning == UnknownIs::free ? Cell::free : Cell::occupied);
   return with_cells(std::move(cells));

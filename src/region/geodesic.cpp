@@ -1,55 +1,61 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "lrrt/region/geodesic.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace lrrt {
 namespace {
 
-struct Step {
-  int dc;
-  int dr;
-  std::int32_t length;
-};
-
-constexpr std::array<Step, 8> steps = {
-    {{1, 0, 5}, {0, 1, 5}, {-1, 0, 5}, {0, -1, 5}, {1, 1, 7}, {-1, 1, 7}, {-1, -1, 7}, {1, -1, 7}}};
+constexpr std::int32_t straight = 5;
+constexpr std::int32_t diagonal = 7;
 /// One more than the longest step: pixels that wait never lie farther apart.
 constexpr std::size_t bucket_count = 8;
 
 }  // namespace
 
 Geodesic::Geodesic(const std::vector<std::uint8_t>& mask, int width, int height, Pixel source)
-    : width_(width), height_(height), distance_(mask.size(), unreached) {
-  const auto index = [&](int c, int r) {
-    return static_cast<std::size_t>(r) * static_cast<std::size_t>(width) + static_cast<std::size_t>(c);
+    : width_(width),
+      height_(height),
+      distance_((static_cast<std::size_t>(width) + 2) * (static_cast<std::size_t>(height) + 2), unreached) {
+  for (int r = 0; r < height; ++r) {
+    const auto* row = mask.data() + static_cast<std::size_t>(r) * static_cast<std::size_t>(width);
+    std::transform(row, row + width, distance_.begin() + static_cast<std::ptrdiff_t>(place({0, r})),
+                   [](std::uint8_t inside) { return inside != 0 ? waiting : unreached; });
+  }
+  const bool on_picture = source.c >= 0 && source.r >= 0 && source.c < width && source.r < height;
+  if (on_picture && distance_[place(source)] == waiting) spread(source);
+}
+
+void Geodesic::spread(Pixel source) {
+  std::array<std::vector<std::uint32_t>, bucket_count> buckets;
+  std::size_t open = 0;
+  const auto offer = [&](std::size_t to, std::int32_t distance) {
+    if (distance >= distance_[to]) return;  // pixels outside the set have less than any
+    distance_[to] = distance;
+    buckets[static_cast<std::size_t>(distance) % bucket_count].push_back(static_cast<std::uint32_t>(to));
+    ++open;
   };
-  const auto inside = [&](int c, int r) {
-    return c >= 0 && r >= 0 && c < width && r < height && mask[index(c, r)] != 0;
-  };
-  if (!inside(source.c, source.r)) return;
-  std::array<std::vector<Pixel>, bucket_count> buckets;
-  buckets[0].push_back(source);
-  distance_[index(source.c, source.r)] = 0;
-  std::size_t waiting = 1;
-  for (std::int32_t now = 0; waiting > 0; ++now) {
-    std::vector<Pixel>& bucket = buckets[static_cast<std::size_t>(now) % bucket_count];
-    for (const Pixel p : bucket) {
-      --waiting;
-      if (distance_[index(p.c, p.r)] != now) continue;  // reached on a shorter way meanwhile
-      reached_.push_back(p);
-      for (const Step& step : steps) {
-        const int c = p.c + step.dc;
-        const int r = p.r + step.dr;
-        if (!inside(c, r)) continue;
-        if (step.dc != 0 && step.dr != 0 && !(inside(c, p.r) && inside(p.c, r))) continue;
-        std::int32_t& known = distance_[index(c, r)];
-        const std::int32_t next = now + step.length;
-        if (known != unreached && known <= next) continue;
-        known = next;
-        buckets[static_cast<std::size_t>(next) % bucket_count].push_back({c, r});
-        ++waiting;
-      }
+  const auto row = static_cast<std::uint32_t>(width_) + 2;
+  offer(place(source), 0);
+  for (std::int32_t now = 0; open > 0; ++now) {
+    std::vector<std::uint32_t>& bucket = buckets[static_cast<std::size_t>(now) % bucket_count];
+    open -= bucket.size();
+    for (const std::uint32_t p : bucket) {
+      if (distance_[p] != now) continue;  // reached on a shorter way meanwhile
+      reached_.push_back({static_cast<int>(p % row) - 1, static_cast<int>(p / row) - 1});
+      const bool left = distance_[p - 1] != unreached;
+      const bool right = distance_[p + 1] != unreached;
+      const bool above = distance_[p - row] != unreached;
+      const bool below = distance_[p + row] != unreached;
+      if (right) offer(p + 1, now + straight);
+      if (below) offer(p + row, now + straight);
+      if (left) offer(p - 1, now + straight);
+      if (above) offer(p - row, now + straight);
+      if (right && below) offer(p + row + 1, now + diagonal);
+      if (left && below) offer(p + row - 1, now + diagonal);
+      if (left && above) offer(p - row - 1, now + diagonal);
+      if (right && above) offer(p - row + 1, now + diagonal);
     }
     bucket.clear();
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "lrrt/map/occupancy_map.hpp"
@@ -25,12 +26,22 @@ class Geodesic {
   /// Distance of a pixel in fifths of a pixel; unreached where no way leads, and outside the picture.
   std::int32_t at(Pixel p) const {
     if (p.c < 0 || p.r < 0 || p.c >= width_ || p.r >= height_) return unreached;
-    return distance_[static_cast<std::size_t>(p.r) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(p.c)];
+    const std::int32_t distance = distance_[place(p)];
+    return distance == waiting ? unreached : distance;
   }
   /// The pixels that were reached, nearest first.
   const std::vector<Pixel>& reached() const { return reached_; }
 
  private:
+  static constexpr std::int32_t waiting = std::numeric_limits<std::int32_t>::max();  ///< in the set, not reached
+
+  /// Where a pixel's distance stands: there is a border around the picture, so that a neighbour is always there to ask.
+  std::size_t place(Pixel p) const {
+    return (static_cast<std::size_t>(p.r) + 1) * (static_cast<std::size_t>(width_) + 2) +
+           static_cast<std::size_t>(p.c) + 1;
+  }
+  void spread(Pixel source);
+
   int width_ = 0;
   int height_ = 0;
   std::vector<std::int32_t> distance_;
