@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "campaign.hpp"
+#include "grid_search.hpp"
 #include "lrrt/planner.hpp"
+#include "lrrt/predict/grid_predictors.hpp"
 #include "lrrt/predict/onnx_predictor.hpp"
 #include "models.hpp"
 #include "problems.hpp"
@@ -101,9 +103,13 @@ Json row_json(const PlanResult& result, const PlanJob& job, double optimum) {
 }
 
 Json run_job(const PlanJob& job) {
-  const Planner planner(job.predictor, job.row.options);
   const Problem& p = *job.problem;
-  const PlanResult result = planner.plan({*p.map, p.start, p.goal, job.suite.radius, job.suite.unknown, job.cancel});
+  const auto planned = [&] {
+    const Planner planner(job.predictor, job.row.options);
+    return planner.plan({*p.map, p.start, p.goal, job.suite.radius, job.suite.unknown, job.cancel});
+  };
+  const bool on_grid = job.row.options.planner == grid_search_name;
+  const PlanResult result = on_grid ? grid_search(p, job.suite) : planned();
   // Afterwards: the search for the optimum must not warm the planner's caches.
   const double nan = std::numeric_limits<double>::quiet_NaN();
   return row_json(result, job, result.solved() ? job.optimum->of(p, job.suite) : nan);
@@ -118,6 +124,8 @@ class Predictors {
     if (row.options.strategy == Strategy::uniform) return nullptr;
     std::shared_ptr<const RegionPredictor>& known = loaded_[row.model];
     if (known) return known;
+    if (row.model == "astar") return known = std::make_shared<const AStarPredictor>();
+    if (row.model == "potential") return known = std::make_shared<const PotentialFieldPredictor>();
     const std::filesystem::path file = model_path(suite_, row.model);
     OnnxOptions options;
     options.threads = std::get<PlanSuite>(suite_.body).threads;

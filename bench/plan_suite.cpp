@@ -3,6 +3,7 @@
 #include <limits>
 #include <sstream>
 
+#include "grid_search.hpp"
 #include "lrrt/planner.hpp"
 #include "maze.hpp"
 #include "suite.hpp"
@@ -135,6 +136,13 @@ std::string name_of(const Fields& fields, const PlanRow& row) {
 
 /// Asks the library whether the options make sense.
 void check(const Fields& fields, const PlanRow& row) {
+  if (row.options.planner == grid_search_name) {
+    if (row.strategy != "uniform" || row.stop != "first") {
+      fields.refuse_all(std::string(grid_search_name) +
+                        " searches the grid: expected 'strategy: uniform' and 'stop: first'");
+    }
+    return;
+  }
   try {
     Planner(std::make_shared<NoPredictor>(), row.options);
   } catch (const RequestError& error) {

@@ -3,7 +3,10 @@
 
 #include <string>
 
+#include "grid_search.hpp"
+#include "lrrt/ompl/map_validity.hpp"
 #include "problems.hpp"
+#include "reference.hpp"
 #include "suite.hpp"
 
 namespace lrrt::bench {
@@ -94,6 +97,32 @@ TEST(Problems, QueriesAreFreeJoinedAndApart) {
     EXPECT_EQ(problems[i].start, again[i].start);
     EXPECT_EQ(map_checksum(*problems[i].map), map_checksum(*again[i].map));
   }
+}
+
+TEST(GridSearch, ItsPathIsFreeAndAlmostTheShortest) {
+  const Suite suite = parse_suite(with("name: plain, planner: RRTstar", "name: plain, planner: A*"), "my.yaml", ".");
+  const auto& body = std::get<PlanSuite>(suite.body);
+  EXPECT_EQ(body.rows[0].options.planner, grid_search_name);
+  for (const Problem& p : make_problems(suite)) {
+    const PlanResult result = grid_search(p, body);
+    ASSERT_TRUE(result.solved());
+    EXPECT_EQ(result.path.front(), p.start);
+    EXPECT_EQ(result.path.back(), p.goal);
+    const CollisionMap collision(*p.map);
+    for (std::size_t i = 1; i < result.path.size(); ++i) {
+      EXPECT_TRUE(collision.is_free(result.path[i - 1], result.path[i]));
+    }
+    const double shortest = shortest_length(*p.map, p.start, p.goal);
+    EXPECT_GE(result.cost, shortest - 1e-9);
+    EXPECT_LE(result.cost, 1.09 * shortest + 2.0);
+  }
+}
+
+TEST(GridSearch, KnowsNeitherGuidanceNorBetterPaths) {
+  EXPECT_NE(error_of(with("name: guided, planner: RRTstar", "name: guided, planner: A*")).find("A* searches the grid"),
+            std::string::npos);
+  EXPECT_NE(error_of(with("RRTstar, strategy: uniform", "A*, strategy: uniform, stop: limit")).find("A* searches"),
+            std::string::npos);
 }
 
 }  // namespace
