@@ -9,8 +9,8 @@
 #include "campaign.hpp"
 #include "grid_search.hpp"
 #include "lrrt/planner.hpp"
-#include "lrrt/predict/grid_predictors.hpp"
 #include "lrrt/predict/onnx_predictor.hpp"
+#include "made_regions.hpp"
 #include "models.hpp"
 #include "problems.hpp"
 #include "reference.hpp"
@@ -124,8 +124,7 @@ class Predictors {
     if (row.options.strategy == Strategy::uniform) return nullptr;
     std::shared_ptr<const RegionPredictor>& known = loaded_[row.model];
     if (known) return known;
-    if (row.model == "astar") return known = std::make_shared<const AStarPredictor>();
-    if (row.model == "potential") return known = std::make_shared<const PotentialFieldPredictor>();
+    if (std::shared_ptr<const RegionPredictor> made = made_region(row.model)) return known = std::move(made);
     const std::filesystem::path file = model_path(suite_, row.model);
     OnnxOptions options;
     options.threads = std::get<PlanSuite>(suite_.body).threads;

@@ -51,7 +51,7 @@ struct MapSource {
 struct PlanRow {
   std::string name;
   std::string strategy = "region";  ///< a word that the library knows
-  std::string model = "default";    ///< a file, the model that ships, or astar, potential: regions of other origin
+  std::string model = "default";    ///< a file, the model that ships, or one of made_region_names()
   std::string stop = "first";       ///< a word that the library knows
   PlanOptions options;              ///< complete but for the seed
 };

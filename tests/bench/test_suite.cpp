@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "grid_search.hpp"
 #include "lrrt/ompl/map_validity.hpp"
+#include "made_regions.hpp"
 #include "problems.hpp"
 #include "reference.hpp"
 #include "suite.hpp"
@@ -123,6 +125,28 @@ TEST(GridSearch, KnowsNeitherGuidanceNorBetterPaths) {
             std::string::npos);
   EXPECT_NE(error_of(with("RRTstar, strategy: uniform", "A*, strategy: uniform, stop: limit")).find("A* searches"),
             std::string::npos);
+}
+
+TEST(MadeRegions, AreWhatTheirNamesSay) {
+  const std::vector<Problem> problems = make_problems(parse_suite(small, "my.yaml", "."));
+  int broken = 0;
+  for (const Problem& p : problems) {
+    const auto mask = [&](const char* name) { return made_region(name)->predict(*p.map, p.start, p.goal).region; };
+    const PromisingRegion perfect = mask("astar");
+    EXPECT_TRUE(perfect.connected());
+    EXPECT_EQ(mask("empty").area(), 0U);
+    EXPECT_EQ(mask("full").area(),
+              static_cast<std::size_t>(std::count(p.map->cells().begin(), p.map->cells().end(), Cell::free)));
+    EXPECT_EQ(mask("inverted").area(), mask("full").area() - perfect.area());
+    broken += static_cast<int>(!mask("broken").connected());
+    EXPECT_LT(mask("room").area(), mask("full").area());
+    EXPECT_NE(mask("wrong").mask(), perfect.mask());
+    EXPECT_NE(mask("shifted").mask(), perfect.mask());
+    EXPECT_FALSE(mask("noise").connected());
+  }
+  EXPECT_GT(broken, 2);  // a short way has no third stretch
+  for (const std::string& name : made_region_names()) EXPECT_NE(made_region(name), nullptr) << name;
+  EXPECT_EQ(made_region("default"), nullptr);
 }
 
 }  // namespace
