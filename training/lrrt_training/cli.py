@@ -146,6 +146,7 @@ def evaluate(
     raw: Annotated[bool, typer.Option(help="Score what the threshold alone marks: no link, no part dropped.")] = False,
     record: Annotated[bool, typer.Option(help="Write the scores to manifest.json and the model card.")] = False,
     sheet: Annotated[Path | None, typer.Option(help="Also write a contact sheet of predictions (PNG).")] = None,
+    failures: Annotated[Path | None, typer.Option(help="Also write one of the worst predictions (PNG).")] = None,
 ) -> None:
     """Score an exported model on held-out maps, as users run it: by the library, in map pixels."""
     from rich.console import Console
@@ -168,6 +169,9 @@ def evaluate(
         scoring.write_between_marks(model.parent / "README.md", scoring.markdown_table(scores))
     if sheet is not None:
         scoring.contact_sheet(predictor, groups, sheet, split=split)
+    if failures is not None:
+        worst = scoring.worst_cases(predictor, groups, maps, split=split)
+        scoring.contact_sheet(predictor, groups, failures, split=split, numbers=worst)
 
 
 @app.command()

@@ -168,21 +168,46 @@ def write_between_marks(page: Path, table: str, marks: tuple[str, str] = CARD_MA
     _write(page, f"{head}{marks[0]}\n{table}\n{marks[1]}{tail}")
 
 
+def worst_cases(
+    predictor: lrrt.OnnxPredictor, groups: Groups, maps: int, columns: int = 6, split: str = "test"
+) -> dict[str, list[int]]:
+    """The numbers of the scenes of each group whose regions are worst: first those that join nothing, then by metric."""
+    worst = {}
+    for group in track(groups, description=f"{predictor.info.name}: worst of {maps}"):
+
+        def badness(number: int, group: str = group) -> tuple[bool, float]:
+            judged = Judged(predictor, predictor.info.input_size, scene_of(groups, group, number, split))
+            region, label = torch.from_numpy(judged.region.mask.copy())[None], torch.from_numpy(judged.label)[None]
+            return not judged.region.connected, float(1 - accuracy(region, label) + redundancy(region, label))
+
+        worst[group] = sorted(range(maps), key=badness, reverse=True)[:columns]
+    return worst
+
+
 def contact_sheet(
-    predictor: lrrt.OnnxPredictor, groups: Groups, path: Path, columns: int = 6, split: str = "test"
+    predictor: lrrt.OnnxPredictor,
+    groups: Groups,
+    path: Path,
+    columns: int = 6,
+    split: str = "test",
+    numbers: dict[str, list[int]] | None = None,
 ) -> None:
-    """Predictions as one picture: a row per group; colours show what was found, missed and too much."""
+    """Predictions as one picture: a row per group; colours show what was found, missed and too much.
+
+    ``numbers`` chooses the scenes of each group; without it they are the first ones.
+    """
     figure = Figure(figsize=(2.2 * columns, 2.35 * len(groups)), layout="constrained")
     axes = figure.subplots(len(groups), columns, squeeze=False)
     for row, group in zip(axes, groups):
-        for number, ax in enumerate(row):
+        chosen = numbers[group] if numbers else range(columns)
+        for place, (number, ax) in enumerate(zip(chosen, row)):
             judged = Judged(predictor, predictor.info.input_size, scene_of(groups, group, number, split))
             ax.imshow(verdict_picture(judged), interpolation="nearest")
             ax.plot(*judged.scene.start, "o", color="red", markersize=4, markeredgecolor="white", markeredgewidth=0.6)
             ax.plot(*judged.scene.goal, "o", color="blue", markersize=4, markeredgecolor="white", markeredgewidth=0.6)
             ax.set_axis_off()
             joined = "joined" if judged.region.connected else "broken"
-            ax.set_title(f"{group}: {joined}" if number == 0 else joined, loc="left", fontsize=8)
+            ax.set_title(f"{group}: {joined}" if place == 0 else joined, loc="left", fontsize=8)
     figure.suptitle("green: path found   magenta: path missed   yellow: more than the path", fontsize=10)
     figure.savefig(path, dpi=90)
 

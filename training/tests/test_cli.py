@@ -111,14 +111,16 @@ def test_export_calibrate_then_evaluate(trained, store, tmp_path):
     assert result.exit_code == 0, result.output
     assert f"threshold {export.properties_of(model)['threshold']}" in result.output.splitlines()[-1]
 
+    bad = tmp_path / "failures.png"
     options = ("--levels", "7,9", "--maps", "2", "--no-families", "--threads", "1", "--record", "--sheet", sheet)
+    options += ("--failures", bad)
     result = call("evaluate", model, *folders, *options)
     assert result.exit_code == 0, result.output
     assert "tiny.onnx, test maps" in result.output
     scores = json.loads((tmp_path / "manifest.json").read_text())["models"]["tiny.onnx"]["scores"]
     assert list(scores) == ["7", "9", "all"] and scores["9"]["count"] == 2
     assert "| 9 | " in card.read_text()
-    assert sheet.stat().st_size > 1000
+    assert sheet.stat().st_size > 1000 and bad.stat().st_size > 1000
     result = call("evaluate", model, *folders, "--levels", "7", "--raw", "--record")
     assert (result.exit_code, "only the scores of what users get" in words(result.output)) == (2, True)
 

@@ -234,6 +234,19 @@ def test_card_without_marks_is_an_error(tmp_path, text):
     assert card.read_text() == text
 
 
+def test_worst_cases_come_first(groups):
+    """A model that knows all but one scene of each group, of which it marks nothing."""
+    wrong = {group: k % MAPS for k, group in enumerate(groups)}
+    truth = Fake(groups, lambda label: label == 2)
+    for group, number in wrong.items():
+        scene = scoring.scene_of(groups, group, number, "test")
+        key = (scene.occupancy_map().cells.tobytes(), scene.start, scene.goal)
+        truth.answers[key] = np.zeros_like(truth.answers[key])
+    worst = scoring.worst_cases(truth, groups, MAPS, columns=2)
+    assert {group: numbers[0] for group, numbers in worst.items()} == wrong
+    assert all(len(numbers) == 2 for numbers in worst.values())
+
+
 def test_contact_sheet_is_a_picture(groups, tmp_path):
     truth = Fake(groups, lambda label: label == 2)
     scoring.contact_sheet(truth, groups, tmp_path / "sheet.png", columns=2)
