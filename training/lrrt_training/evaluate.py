@@ -171,7 +171,7 @@ def write_between_marks(page: Path, table: str, marks: tuple[str, str] = CARD_MA
 def worst_cases(
     predictor: lrrt.OnnxPredictor, groups: Groups, maps: int, columns: int = 6, split: str = "test"
 ) -> dict[str, list[int]]:
-    """The numbers of the scenes of each group whose regions are worst: first those that join nothing, then by metric."""
+    """The numbers of the scenes of each group whose regions are worst: those that join nothing, then by metric."""
     worst = {}
     for group in track(groups, description=f"{predictor.info.name}: worst of {maps}"):
 
