@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command line: ``lrrt plan``, ``lrrt predict``, ``lrrt info``.
+"""The command line: ``lrrt plan``, ``lrrt predict``, ``lrrt info``, ``lrrt report``.
 
 Exit codes: 0 done (a path was found), 2 bad input, 3 no path.
 """
@@ -174,6 +174,36 @@ def info_command(
     for key, value in fields.items():
         table.add_row(key.replace("_", " "), ", ".join(value) if isinstance(value, list) else str(value))
     Console().print(table)
+
+
+@app.command("report")
+def report_command(
+    results: Annotated[list[Path], typer.Argument(metavar="RESULTS...", help="Files that lrrt_bench --json wrote.")],
+    output: Annotated[Path, typer.Option(metavar="FILE", help="HTML file to write, complete in itself.")] = Path(
+        "report.html"
+    ),
+    figures: Annotated[
+        Path | None, typer.Option(metavar="FOLDER", help="Also write the figures, as SVG files.")
+    ] = None,
+    markdown: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Also write Markdown, with links to --figures.")
+    ] = None,
+) -> None:
+    """Turn results of lrrt_bench into a page with figures and tables.
+
+    Example: [bold]lrrt report paper.json --output paper.html[/bold]
+
+    Example: [bold]lrrt report paper.json --figures docs/images/paper --markdown docs/paper.md[/bold]
+    """
+    from lrrt.report import write_report
+
+    try:
+        with Console(stderr=True).status("drawing …"):
+            written = write_report(results, output, figures, markdown)
+    except Error as error:
+        _fail(error)
+    for path in written:
+        typer.echo(path)
 
 
 def result_fields(result: PlanResult) -> dict[str, Any]:
