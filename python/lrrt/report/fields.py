@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Values of a JSON file, each checked when it is asked for; errors name the file and the field."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, TypeGuard
+
+from lrrt._core import Error
+
+_LARGEST_WHOLE = 1 << 64  # beyond any count or seed; Python would read more digits than a double holds
+
+
+class ResultError(Error):
+    """A result file or a report cannot be read or written; names the file, the field and what was expected."""
+
+
+class Fields:
+    """One JSON object of a file."""
+
+    def __init__(self, values: dict[str, Any], source: str, place: str = "") -> None:
+        self._values = values
+        self._source = source
+        self._place = place
+
+    def __contains__(self, key: str) -> bool:
+        """Whether the object has the key with anything but null."""
+        return self._values.get(key) is not None
+
+    def __iter__(self) -> Iterator[str]:
+        """The keys, in the order of the file."""
+        return iter(self._values)
+
+    def raw(self, key: str) -> Any:
+        """A value as it is."""
+        return self._values[key]
+
+    def place(self, key: str) -> str:
+        """Where a field stands, as in ``rows[3].times_ms.plan``."""
+        return f"{self._place}.{key}" if self._place else key
+
+    def refuse(self, key: str, expected: str) -> ResultError:
+        """The error for a field that is missing or wrong."""
+        where = f"{self._source}: field '{self.place(key)}'"
+        if key not in self._values:
+            return ResultError(f"{where} is missing; expected {expected}")
+        shown = json.dumps(self._values[key], ensure_ascii=False)
+        shown = shown if len(shown) <= 60 else shown[:57] + "…"
+        return ResultError(f"{where} is {shown}; expected {expected}")
+
+    def text(self, key: str, fallback: str | None = None) -> str:
+        """A text; the fallback, where there is one, when the key is absent."""
+        if fallback is not None and key not in self._values:
+            return fallback
+        value = self._values.get(key)
+        if not isinstance(value, str):
+            raise self.refuse(key, "a text")
+        return value
+
+    def flag(self, key: str) -> bool:
+        """True or false."""
+        value = self._values.get(key)
+        if not isinstance(value, bool):
+            raise self.refuse(key, "true or false")
+        return value
+
+    def whole(self, key: str) -> int:
+        """A whole number."""
+        value = self._values.get(key)
+        if not isinstance(value, int) or isinstance(value, bool) or abs(value) > _LARGEST_WHOLE:
+            raise self.refuse(key, "a whole number")
+        return value
+
+    def number(self, key: str) -> float:
+        """A finite number."""
+        value = self._values.get(key)
+        if not is_number(value):
+            raise self.refuse(key, "a finite number")
+        return float(value)
+
+    def number_or_nan(self, key: str) -> float:
+        """A finite number, or nan where the file says null or nothing."""
+        return self.number(key) if key in self else math.nan
+
+    def child(self, key: str) -> Fields:
+        """An object inside this one."""
+        value = self._values.get(key)
+        if not isinstance(value, dict):
+            raise self.refuse(key, "an object")
+        return Fields(value, self._source, self.place(key))
+
+    def children(self, key: str, expected: str) -> list[Fields]:
+        """A list of objects that is not empty."""
+        items = self._items(key, expected)
+        for i, item in enumerate(items):
+            if not isinstance(item, dict):
+                raise Fields({f"{key}[{i}]": item}, self._source, self._place).refuse(f"{key}[{i}]", "an object")
+        return [Fields(item, self._source, f"{self.place(key)}[{i}]") for i, item in enumerate(items)]
+
+    def matrix(self, key: str, columns: int, expected: str) -> list[list[float]]:
+        """A list, not empty, of lists of so many finite numbers."""
+        items = self._items(key, expected)
+        for item in items:
+            if not (isinstance(item, list) and len(item) == columns and all(map(is_number, item))):
+                raise self.refuse(key, expected)
+        return items
+
+    def _items(self, key: str, expected: str) -> list[Any]:
+        value = self._values.get(key)
+        if not isinstance(value, list) or not value:
+            raise self.refuse(key, expected)
+        return value
+
+
+def is_number(value: object) -> TypeGuard[float]:
+    """Whether a JSON value is a finite number; true and false are none."""
+    if isinstance(value, int):
+        return not isinstance(value, bool) and abs(value) <= _LARGEST_WHOLE
+    return isinstance(value, float) and math.isfinite(value)
+
+
+def read_object(path: Path) -> Fields:
+    """The JSON object that a file holds.
+
+    Raises:
+        ResultError: there is no such file, or it holds something else.
+    """
+    expected = "expected a file that lrrt_bench --json wrote"
+    try:
+        text = path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise ResultError(f"{path}: cannot be read ({error.strerror or error}); {expected}") from error
+    except UnicodeDecodeError as error:
+        raise ResultError(f"{path}: is no text ({error.reason} at byte {error.start}); {expected}") from error
+    try:
+        values = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        if path.suffix == ".part":
+            raise ResultError(
+                f"{path}: is a run that was interrupted; give the command that began it again, then report {path.stem}"
+            ) from error
+        raise ResultError(f"{path}: is not JSON ({error}); {expected}") from error
+    if not isinstance(values, dict):
+        raise ResultError(f"{path}: holds no JSON object; {expected}")
+    return Fields(values, str(path))

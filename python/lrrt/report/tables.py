@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The tables of a report, as data."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import PurePosixPath
+
+import numpy as np
+
+from lrrt.report.formatting import mean_and_deviation, median_and_quartiles, short_number
+from lrrt.report.results import WITHIN_PERCENTS, Field, PlanResults, PredictResults, Run, pairs_of, values_of
+from lrrt.report.statistics import quantile, ratios, wilson_interval
+
+FIELDS: tuple[tuple[Field, str], ...] = (
+    ("first", "first path, ms"),
+    ("prediction", "prediction, ms"),
+    ("search", "search, ms"),
+    ("iterations", "iterations"),
+    ("nodes", "nodes"),
+    ("length", "length / optimum"),
+)
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table: the first column names the row, the others hold numbers."""
+
+    title: str
+    columns: tuple[str, ...]
+    rows: list[tuple[str, ...]]
+    note: str = ""
+
+
+def success(runs: Sequence[Run]) -> str:
+    """As in ``8/10 (49 to 94 %)``, with Wilson's 95 % interval."""
+    solved = sum(run.solved for run in runs)
+    low, high = wilson_interval(solved, len(runs))
+    return f"{solved}/{len(runs)} ({100 * low:.0f} to {100 * high:.0f} %)"
+
+
+def medians_table(results: PlanResults, group: str) -> Table:
+    """Success, and median and quartiles of everything that is measured."""
+    rows = [
+        (name, success(runs), *(median_and_quartiles(values_of(runs, field)) for field, _ in FIELDS))
+        for name, runs in results.rows(group).items()
+    ]
+    return Table(
+        "Median [quartiles]",
+        ("planner", "solved (95 % interval)", *(title for _, title in FIELDS)),
+        rows,
+        "Over the solved runs of each planner. Where planners solved different runs, only the gains below compare like "
+        "with like.",
+    )
+
+
+def means_table(results: PlanResults, group: str) -> Table:
+    """Mean and sample standard deviation, as the paper tells them."""
+    fields = [(field, title) for field, title in FIELDS if field != "prediction"]
+    rows = [
+        (name, *(mean_and_deviation(values_of(runs, field)) for field, _ in fields))
+        for name, runs in results.rows(group).items()
+    ]
+    return Table("Mean ± standard deviation", ("planner", *(title for _, title in fields)), rows)
+
+
+def within_table(results: PlanResults, group: str) -> Table | None:
+    """Median time to come near the optimum, and how many runs did; None when no run of any planner did."""
+    rows = []
+    any_run = False
+    for name, runs in results.rows(group).items():
+        cells = [name]
+        for i in range(len(WITHIN_PERCENTS)):
+            times = [run.within[i] for run in runs if not math.isnan(run.within[i])]
+            any_run = any_run or bool(times)
+            cells.append(f"{short_number(quantile(times, 0.5))} ({len(times)}/{len(runs)})")
+        rows.append(tuple(cells))
+    if not any_run:
+        return None
+    return Table(
+        "Time until the path is near the optimum, ms",
+        ("planner", *(f"within {percent} %" for percent in WITHIN_PERCENTS)),
+        rows,
+        "Median over the runs that came so near; in brackets how many of all runs did.",
+    )
+
+
+def gains_table(results: PlanResults, group: str) -> Table | None:
+    """The baseline's numbers divided by each planner's; None without a baseline or without others."""
+    runs = results.rows(group)
+    if results.baseline not in runs or len(runs) < 2:
+        return None
+    fields = [
+        (field, title.removesuffix(", ms").removesuffix(" / optimum"))
+        for field, title in FIELDS
+        if field != "prediction"
+    ]
+    rows = []
+    for name, others in runs.items():
+        if name == results.baseline:
+            continue
+        pairs = pairs_of(runs[results.baseline], others)
+        gains = [ratios((getattr(a, field), getattr(b, field)) for a, b in pairs) for field, _ in fields]
+        rows.append((name, str(len(gains[0])), *(median_and_quartiles(gain, "×") for gain in gains)))
+    return Table(
+        f"Gain over {results.baseline}",
+        ("planner", "pairs", *(title for _, title in fields)),
+        rows,
+        f"The number of {results.baseline} divided by the row's for the same map, query and seed, over runs that both "
+        "solved: median [quartiles]. Above 1 the row is better.",
+    )
+
+
+def group_tables(results: PlanResults, group: str) -> list[Table]:
+    """All tables of a group that say something."""
+    tables = [
+        medians_table(results, group),
+        gains_table(results, group),
+        within_table(results, group),
+        means_table(results, group),
+    ]
+    return [table for table in tables if table is not None]
+
+
+def settings_table(results: PlanResults) -> Table:
+    """What each planner was set to."""
+    rows: list[tuple[str, ...]] = [
+        (
+            s.name,
+            s.planner,
+            s.strategy if s.guided else "uniform (unguided)",
+            f"{s.alpha:g}" if s.guided else "-",
+            PurePosixPath(s.model).name if s.guided else "-",
+            f"{s.range:g}" if s.range else "by the map",
+            s.stop,
+            f"{s.time_limit:g}",
+        )
+        for s in results.settings.values()
+    ]
+    columns = ("row", "planner", "samples", "α", "model", "range", "stop", "time limit, s")
+    return Table("Planners", columns, rows)
+
+
+def predict_table(results: PredictResults) -> Table:
+    """Median and 95 % quantile of each stage of a prediction."""
+    names = model_names([row.model for row in results.rows])
+    rows = []
+    for row in results.rows:
+        stages = [
+            f"{short_number(quantile(times, 0.5))} ({short_number(quantile(times, 0.95))})" for times in row.times.T
+        ]
+        total = float(np.sum(row.times[:, 3]))
+        per_second = 1e3 * len(row.times) / total if total > 0 else math.inf
+        setting = (names[row.model], f"{row.size}²", str(row.threads), "on" if row.spinning else "off")
+        rows.append((*setting, *stages, short_number(per_second)))
+    return Table(
+        "Time of one prediction, ms: median (95 % are below)",
+        ("model", "map, pixels", "threads", "spinning", "encode", "infer", "region", "all", "per second"),
+        rows,
+        "Per second: predictions one after the other, all stages. Spinning: idle threads stay awake.",
+    )
+
+
+def model_names(models: Sequence[str]) -> dict[str, str]:
+    """File names instead of paths, where that leaves models different names."""
+    short = {model: PurePosixPath(model).name for model in models}
+    taken = list(short.values())
+    return {model: name if taken.count(name) == 1 else model for model, name in short.items()}
