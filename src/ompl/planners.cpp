@@ -57,8 +57,10 @@ class Seeded final : public Planner {
  public:
   Seeded(const ob::SpaceInformationPtr& si, std::uint32_t seed) : Planner(si) {
     if constexpr (has_random_numbers<Planner>) this->rng_.setLocalSeed(seed);
-    // OMPL warns of its own default: the plain name is for the version that connects within a radius
-    if constexpr (is_a<Planner, og::BITstar>) this->setName("k" + this->getName());
+    // OMPL 1.5 warns of its own default: the plain name is for the version that connects within a radius
+    if constexpr (is_a<Planner, og::BITstar>) {
+      if (this->getName().front() != 'k') this->setName("k" + this->getName());
+    }
   }
 
   std::size_t nodes() const {

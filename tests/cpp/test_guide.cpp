@@ -132,7 +132,7 @@ ob::PlannerTerminationCondition after(int looks) {
 /// LazyPRM* looks seldom.
 int enough(const std::string& planner) {
   if (planner == "BFMT") return 1000000;
-  return planner == "LazyPRMstar" ? 300 : 1500;
+  return planner == "LazyPRMstar" ? 600 : 1500;
 }
 
 /// How many looks suffice for a path. LBTRRT takes long for each; SST tries many ways before one reaches the goal.
