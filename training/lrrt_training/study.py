@@ -82,7 +82,8 @@ def figure(results: dict[str, Result], path: Path) -> None:
     for ax, (key, label) in zip(drawing.subplots(1, 3), _LABELS.items()):
         _panel(ax, results, key)
         ax.set_ylabel(label)
-    drawing.axes[0].legend(frameon=False)
+    handles, names = drawing.axes[0].get_legend_handles_labels()
+    drawing.legend(handles, names, loc="outside upper center", ncols=len(names), frameon=False)
     drawing.savefig(path, dpi=110)
 
 
@@ -96,7 +97,7 @@ def _panel(ax: Axes, results: dict[str, Result], key: str) -> None:
     ax.axvspan(min(trained) - 1, max(trained) + 1, color="0.92", zorder=0)
     ax.text(sum(trained) / len(trained), 0.02, "trained", ha="center", color="0.45", transform=ax.get_xaxis_transform())
     ax.set_xlabel("blocks a side")
-    ax.set_ylim(bottom=0)
+    ax.set_ylim(0, None if key == "redundancy" else 1)
     ax.spines[["top", "right"]].set_visible(False)
 
 
