@@ -25,7 +25,7 @@ import lrrt
 
 from .export import properties_of, save_onnx
 from .metrics import OBSTACLE, PROMISING, RegionMetrics, accuracy, redundancy
-from .scenes import Scene
+from .scenes import MazeScene, Scene
 from .store import SPLITS
 
 Groups = dict[str, Callable[..., Scene]]
@@ -57,8 +57,11 @@ class Judged:
 def evaluate(
     predictor: lrrt.OnnxPredictor, groups: Groups, maps: int, split: str = "test", raw: bool = False
 ) -> Scores:
-    """Scores on ``maps`` scenes of each group: of the library's regions, or with ``raw`` of the threshold alone."""
-    metrics = RegionMetrics(list(groups))
+    """Scores on ``maps`` scenes of each group: of the library's regions, or with ``raw`` of the threshold alone.
+
+    Mazes are also counted by kind, over all levels: in a perfect one there is one way, in a looped one several compete.
+    """
+    metrics, kinds = RegionMetrics(list(groups)), RegionMetrics(["perfect mazes", "looped mazes"])
     jobs = [(group, number) for group in groups for number in range(maps)]
     for group, number in track(jobs, description=f"{predictor.info.name}: {len(groups)} groups × {maps} maps"):
         judged = Judged(predictor, predictor.info.input_size, scene_of(groups, group, number, split))
@@ -67,7 +70,13 @@ def evaluate(
         joined = judged.region.connected and not (raw and linked)
         region, label = torch.from_numpy(mask), torch.from_numpy(judged.label)
         metrics.update(region[None], label[None], [group], [joined], [joined and linked])
-    return metrics.compute()
+        if isinstance(judged.scene, MazeScene):
+            kind = kinds.groups[judged.scene.looped]
+            kinds.update(region[None], label[None], [kind], [joined], [joined and linked])
+    scores, by_kind = metrics.compute(), kinds.compute()
+    of_all = scores.pop("all")
+    del by_kind["all"]
+    return {**scores, **by_kind, "all": of_all}
 
 
 def metric_by_threshold(
@@ -101,7 +110,7 @@ def rich_table(title: str, scores: Scores) -> Table:
     for column in ("maps", "accuracy", "redundancy", "metric", "connected", "by a link", "count"):
         table.add_column(column, justify="right")
     for level, row in scores.items():
-        if level == "all":
+        if level == "perfect mazes" or level == "all":
             table.add_section()
         table.add_row(str(level), *_cells(row))
     return table

@@ -54,6 +54,13 @@ class MazeScene:
     def group(self) -> str:
         return str(len(self.blocks))
 
+    @property
+    def looped(self) -> bool:
+        """Whether some blocks are joined by more than one way."""
+        free = ~self.blocks
+        passages = (free[1:] & free[:-1]).sum() + (free[:, 1:] & free[:, :-1]).sum()
+        return bool(passages >= free.sum())
+
     def enlarge(self, blocks: np.ndarray) -> np.ndarray:
         """A picture at block resolution → at map resolution."""
         return np.kron(blocks, np.ones((self.scale, self.scale), dtype=blocks.dtype)) if self.scale > 1 else blocks

@@ -89,7 +89,7 @@ def figure(results: dict[str, Result], path: Path) -> None:
 
 def _panel(ax: Axes, results: dict[str, Result], key: str) -> None:
     for (name, result), (colour, marker) in zip(results.items(), _STYLES):
-        scores = {int(level): row[key] for level, row in result["scores"].items() if level != "all"}
+        scores = {int(level): row[key] for level, row in result["scores"].items() if level.isdecimal()}
         ax.plot(
             list(scores), list(scores.values()), color=colour, marker=marker, markersize=4, label=name.replace("_", " ")
         )

@@ -118,7 +118,8 @@ def test_export_calibrate_then_evaluate(trained, store, tmp_path):
     assert result.exit_code == 0, result.output
     assert "tiny.onnx, test maps" in result.output
     scores = json.loads((tmp_path / "manifest.json").read_text())["models"]["tiny.onnx"]["scores"]
-    assert list(scores) == ["7", "9", "all"] and scores["9"]["count"] == 2
+    assert [name for name in scores if name.isdecimal()] == ["7", "9"] and list(scores)[-1] == "all"
+    assert scores["9"]["count"] == 2
     assert "| 9 | " in card.read_text()
     assert sheet.stat().st_size > 1000 and bad.stat().st_size > 1000
     result = call("evaluate", model, *folders, "--levels", "7", "--raw", "--record")
