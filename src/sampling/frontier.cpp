@@ -23,6 +23,8 @@ constexpr double trust = 512.0;
 constexpr double batch_trust = 8192.0;
 constexpr double least_confidence = 0.1;
 constexpr double most_doublings = 30.0;
+/// Share of the draws from the shortest ways alone: where they pass a gap of a pixel, few others of the band lie in it.
+constexpr double way_share = 0.25;
 /// Once a path is known: share of the draws around its corners, and tries for a pixel that could shorten it.
 constexpr double corner_share = 0.5;
 constexpr int most_tries = 8;
@@ -42,6 +44,7 @@ FrontierStrategy::Front FrontierStrategy::make_front(const Geodesic& to_other, c
     const auto whole_pixels = static_cast<std::size_t>(distance * Geodesic::unit);
     while (front.first.size() <= whole_pixels) front.first.push_back(front.pixels.size());
     front.pixels.push_back(p);
+    if (distance + behind == whole) front.way.push_back(p);
   }
   return front;
 }
@@ -82,6 +85,7 @@ Eigen::Vector2d FrontierStrategy::draw_ahead(Random& random) {
   const Front& front = fronts_[turn_];
   if (growth_ == Growth::batch) return point_in(front.pixels[random.index(front.pixels.size())], random);
   turn_ = (turn_ + 1) % trees_;
+  if (random.uniform() < way_share) return point_in(draw_on_way(front, random), random);
   const double reach = step_ * std::exp2(std::min(static_cast<double>(stalled_) / patience, most_doublings));
   const double horizon = front.horizon * Geodesic::unit;
   const auto first_from = [&](double distance) {
@@ -91,6 +95,18 @@ Eigen::Vector2d FrontierStrategy::draw_ahead(Random& random) {
   const std::size_t low = std::min(first_from(horizon - steps_ahead * reach), front.pixels.size() - 1);
   const std::size_t high = std::max(low + 1, first_from(horizon + steps_back * reach + 1.0));
   return point_in(front.pixels[low + random.index(high - low)], random);
+}
+
+Pixel FrontierStrategy::draw_on_way(const Front& front, Random& random) const {
+  const auto first_from = [&](double distance) {
+    const auto nearer = [&](Pixel p) { return front.to_other.at(p) * Geodesic::unit < distance; };
+    return static_cast<std::size_t>(std::partition_point(front.way.begin(), front.way.end(), nearer) -
+                                    front.way.begin());
+  };
+  const double horizon = front.horizon * Geodesic::unit;
+  const std::size_t low = std::min(first_from(horizon - steps_ahead * step_), front.way.size() - 1);
+  const std::size_t high = std::max(low + 1, first_from(horizon + steps_back * step_));
+  return front.way[low + random.index(high - low)];
 }
 
 Eigen::Vector2d FrontierStrategy::draw_on_path(Random& random) {

@@ -59,12 +59,15 @@ class FrontierStrategy final : public SamplingStrategy {
     Geodesic to_other;               ///< walking distance to the other tree's root
     std::vector<Pixel> pixels;       ///< those that take part, nearest to the other root first
     std::vector<std::size_t> first;  ///< first[d]: index of the first pixel with a distance of at least d pixels
+    std::vector<Pixel> way;          ///< those of the shortest ways from root to root, in the same order
     std::int32_t horizon = 0;
   };
 
   /// A front without its distances.
   static Front make_front(const Geodesic& to_other, const Geodesic& from_own, Pixel root, std::int32_t most_detour);
   Eigen::Vector2d draw_ahead(Random& random);
+  /// A pixel of the shortest ways, as near to the horizon as one step.
+  Pixel draw_on_way(const Front& front, Random& random) const;
   Eigen::Vector2d draw_on_path(Random& random);
   bool inside(Pixel p) const { return p.c >= 0 && p.r >= 0 && p.c < width_ && p.r < height_; }
   std::size_t index(Pixel p) const {
