@@ -23,8 +23,7 @@ PlanResult grid_search(const Problem& problem, const PlanSuite& suite) {
   result.path.push_back(problem.start);
   for (std::size_t i = 1; i + 1 < pixels.size(); ++i) result.path.push_back(map.center(pixels[i]));
   result.path.push_back(problem.goal);
-  result.cost = 0.0;
-  for (std::size_t i = 1; i < result.path.size(); ++i) result.cost += (result.path[i] - result.path[i - 1]).norm();
+  result.cost = path_length(result.path);
   result.cost_history = {{result.timings.plan, 0, result.cost}};
   return result;
 }

@@ -53,14 +53,7 @@ double some_length(const OccupancyMap& map, const SegmentWalk& walk, const Eigen
     points.emplace_back(p.c + 0.5, p.r + 0.5);
   }
   points.push_back(goal);
-  double length = 0.0;
-  for (std::size_t from = 0; from + 1 < points.size();) {
-    std::size_t to = from + 1;
-    while (to + 1 < points.size() && walk.is_free(points[from], points[to + 1])) ++to;
-    length += (points[to] - points[from]).norm();
-    from = to;
-  }
-  return length;
+  return straightened_length(points, [&](const auto& from, const auto& to) { return walk.is_free(from, to); });
 }
 
 /// Where the blocked pixel lies at a convex corner of an obstacle, as signs; zero at every other corner of pixels.

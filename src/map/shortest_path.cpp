@@ -204,4 +204,10 @@ double path_length(const std::vector<Pixel>& path) {
   return length;
 }
 
+double path_length(const std::vector<Eigen::Vector2d>& path) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
+  return length;
+}
+
 }  // namespace lrrt

@@ -36,19 +36,12 @@ ob::StateSpacePtr plane_over(const OccupancyMap& map) {
 }
 
 /// Straightens a pixel path by line of sight between the exact ends. @return its length, map units.
-double straightened_length(const CollisionMap& map, const std::vector<Pixel>& path, const Eigen::Vector2d& start,
-                           const Eigen::Vector2d& goal) {
+double line_of_sight_length(const CollisionMap& map, const std::vector<Pixel>& path, const Eigen::Vector2d& start,
+                            const Eigen::Vector2d& goal) {
   std::vector<Eigen::Vector2d> points{start};
   for (const Pixel p : path) points.push_back(map.map().center(p));
   points.push_back(goal);
-  double length = 0.0;
-  for (std::size_t from = 0; from + 1 < points.size();) {
-    std::size_t to = from + 1;
-    while (to + 1 < points.size() && map.is_free(points[from], points[to + 1])) ++to;
-    length += (points[to] - points[from]).norm();
-    from = to;
-  }
-  return length;
+  return straightened_length(points, [&](const auto& from, const auto& to) { return map.is_free(from, to); });
 }
 
 /// Seeds OMPL's own generator from ours; OMPL refuses 0.
@@ -105,7 +98,7 @@ double MapSearch::reference_cost() const {
   const OccupancyMap& map = map_->map();
   const std::vector<Pixel> path =
       shortest_path(map, OccupancyMap::pixel_of(map.to_pixel(start_)), OccupancyMap::pixel_of(map.to_pixel(goal_)));
-  return straightened_length(*map_, path, start_, goal_);
+  return line_of_sight_length(*map_, path, start_, goal_);
 }
 
 void MapSearch::run(PlanResult& result) {
@@ -142,8 +135,7 @@ void MapSearch::read_path(PlanResult& result) const {
   auto& path = *problem_->getSolutionPath()->as<og::PathGeometric>();
   result.status = PlanStatus::solved;
   for (const ob::State* state : path.getStates()) result.path.push_back(projection_->read(state));
-  result.cost = 0.0;
-  for (std::size_t i = 1; i < result.path.size(); ++i) result.cost += (result.path[i] - result.path[i - 1]).norm();
+  result.cost = path_length(result.path);
   const bool better = result.cost_history.empty() || result.cost < result.cost_history.back().cost;
   if (better) result.cost_history.push_back({result.timings.plan, limits_->iterations(), result.cost});
 }

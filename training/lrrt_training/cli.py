@@ -128,7 +128,7 @@ def calibrate(
     rows = scoring.metric_by_threshold(predictor, groups, maps, thresholds)
     for threshold, (metric, connected) in zip(thresholds, rows):
         typer.echo(f"threshold {threshold:.2f}  metric {metric:.4f}  connected {100 * connected:.1f} %")
-    best = thresholds[min(range(len(rows)), key=lambda k: rows[k][0])]
+    best = scoring.best_threshold(thresholds, rows)
     scoring.write_threshold(model, best)
     typer.echo(f"{model}: threshold {best:g}")
 

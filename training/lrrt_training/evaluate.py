@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 import zlib
 from collections.abc import Callable
 from pathlib import Path
@@ -24,9 +23,9 @@ from rich.table import Table
 import lrrt
 
 from .export import properties_of, save_onnx
-from .metrics import OBSTACLE, PROMISING, RegionMetrics, accuracy, redundancy
+from .metrics import OBSTACLE, PROMISING, RegionMetrics, metric
 from .scenes import MazeScene, Scene
-from .store import SPLITS
+from .store import SPLITS, write_text
 
 Groups = dict[str, Callable[..., Scene]]
 Scores = dict[str, dict[str, float]]
@@ -89,7 +88,7 @@ def metric_by_threshold(
         judged = Judged(predictor, predictor.info.input_size, scene_of(groups, group, number, "evaluation"))
         regions = torch.from_numpy(np.stack([judged.by_threshold(t) for t in thresholds]))
         labels = torch.from_numpy(judged.label).expand(len(thresholds), -1, -1)
-        sums[:, 0] += (1 - accuracy(regions, labels) + redundancy(regions, labels)).numpy()
+        sums[:, 0] += metric(regions, labels).numpy()
         grid = judged.scene.occupancy_map()
         for k, t in enumerate(thresholds):
             again = lrrt.PromisingRegion.from_array(
@@ -97,6 +96,11 @@ def metric_by_threshold(
             )
             sums[k, 1] += again.connected
     return [(float(m), float(c)) for m, c in sums / len(jobs)]
+
+
+def best_threshold(thresholds: list[float], rows: list[tuple[float, float]]) -> float:
+    """The threshold with the lowest metric among the rows of metric_by_threshold()."""
+    return thresholds[min(range(len(rows)), key=lambda k: rows[k][0])]
 
 
 def write_threshold(path: Path, threshold: float) -> None:
@@ -131,12 +135,6 @@ def _cells(row: dict[str, float]) -> list[str]:
     return [*figures, f"{100 * row['connectivity']:.1f} %", f"{100 * row['linked']:.1f} %", f"{int(row['count'])}"]
 
 
-def _write(path: Path, text: str) -> None:
-    temporary = path.with_name(f".{path.name}.part")
-    temporary.write_text(text)
-    os.replace(temporary, path)
-
-
 def write_manifest(folder: Path, path: Path, scores: Scores, split: str) -> None:
     """Enters a model into ``folder``/manifest.json: hash, size, what the file says of itself, scores."""
     manifest_path = folder / "manifest.json"
@@ -150,7 +148,7 @@ def write_manifest(folder: Path, path: Path, scores: Scores, split: str) -> None
         "split": split,
         "scores": {group: {k: round(v, 4) for k, v in row.items()} for group, row in scores.items()},
     }
-    _write(manifest_path, json.dumps(manifest, indent=1) + "\n")
+    write_text(manifest_path, json.dumps(manifest, indent=1) + "\n")
 
 
 def split_at_marks(page: Path, marks: tuple[str, str] = CARD_MARKS) -> tuple[str, str]:
@@ -174,7 +172,7 @@ def write_between_marks(page: Path, table: str, marks: tuple[str, str] = CARD_MA
         ValueError: see split_at_marks().
     """
     head, tail = split_at_marks(page, marks)
-    _write(page, f"{head}{marks[0]}\n{table}\n{marks[1]}{tail}")
+    write_text(page, f"{head}{marks[0]}\n{table}\n{marks[1]}{tail}")
 
 
 def worst_cases(
@@ -187,7 +185,7 @@ def worst_cases(
         def badness(number: int, group: str = group) -> tuple[bool, float]:
             judged = Judged(predictor, predictor.info.input_size, scene_of(groups, group, number, split))
             region, label = torch.from_numpy(judged.region.mask.copy())[None], torch.from_numpy(judged.label)[None]
-            return not judged.region.connected, float(1 - accuracy(region, label) + redundancy(region, label))
+            return not judged.region.connected, float(metric(region, label))
 
         worst[group] = sorted(range(maps), key=badness, reverse=True)[:columns]
     return worst

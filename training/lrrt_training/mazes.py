@@ -151,12 +151,15 @@ def braid(rng: np.random.Generator, occupied: np.ndarray, share: float) -> np.nd
     return braided
 
 
+def sometimes_braided(rng: np.random.Generator, occupied: np.ndarray, probability: float) -> np.ndarray:
+    """The maze itself, or with a probability a copy in which a random part of its dead ends is opened."""
+    return braid(rng, occupied, rng.uniform(0.1, 1.0)) if rng.random() < probability else occupied
+
+
 def random_maze(rng: np.random.Generator, level: int, braided_share: float = 0.25) -> np.ndarray:
     """A maze of a random algorithm; with probability ``braided_share`` a random part of its dead ends is opened."""
     occupied = perfect_maze(rng, level, ALGORITHMS[rng.integers(len(ALGORITHMS))])
-    if rng.random() < braided_share:
-        occupied = braid(rng, occupied, rng.uniform(0.1, 1.0))
-    return occupied
+    return sometimes_braided(rng, occupied, braided_share)
 
 
 def random_ends(rng: np.random.Generator, occupied: np.ndarray) -> tuple[tuple[int, int], tuple[int, int]]:

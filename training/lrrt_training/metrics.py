@@ -24,6 +24,11 @@ def redundancy(region: Tensor, label: Tensor) -> Tensor:
     return excess.flatten(1).sum(1) / truth.flatten(1).sum(1).clamp(min=1)
 
 
+def metric(region: Tensor, label: Tensor) -> Tensor:
+    """The paper's metric, (1 − accuracy) + redundancy; lower is better. (N, H, W) bool and classes → (N,)."""
+    return 1 - accuracy(region, label) + redundancy(region, label)
+
+
 class RegionMetrics(Metric):
     """Mean accuracy, redundancy, metric = (1 − accuracy) + redundancy, connectivity, and the share of the maps whose
     region needed a link to join start and goal, for every group and over all.

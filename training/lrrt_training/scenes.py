@@ -202,8 +202,8 @@ class SceneSource:
         stored = self.store.mazes(self.split, level)
         number = int(rng.integers(len(stored))) if number < 0 else number % len(stored)
         blocks = unpack(stored[number], level)
-        if braided_share > 0 and rng.random() < braided_share:
-            blocks = mazes.braid(rng, blocks, rng.uniform(0.1, 1.0))
+        if braided_share > 0:  # without a share nothing is drawn, so that the numbers that follow stay the same
+            blocks = mazes.sometimes_braided(rng, blocks, braided_share)
         return random_maze_scene(rng, blocks, size, pixel_share)
 
     def family(self, rng: np.random.Generator, family: str, size: int) -> MapScene:

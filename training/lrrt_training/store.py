@@ -20,6 +20,13 @@ DEFAULT_COUNTS = {"train": 6000, "evaluation": 1000, "test": 1000}  #: mazes per
 _FORMAT = 1
 
 
+def write_text(path: Path, text: str) -> None:
+    """Writes a text under a temporary name, then renames it: the file is the old one or the new one, never half."""
+    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    temporary.write_text(text)
+    os.replace(temporary, path)
+
+
 def check_split(split: str) -> None:
     """Raises ValueError unless there is such a split."""
     if split not in SPLITS:
@@ -143,6 +150,4 @@ class MazeStore:
                 "mazes": self.counts.get(split, 0),
             }
         manifest = {"format": _FORMAT, "seed": self.seed, "braided_share": self.braided_share, "files": files}
-        temporary = self.folder / f".manifest.{os.getpid()}"
-        temporary.write_text(json.dumps(manifest, indent=1) + "\n")
-        os.replace(temporary, self.folder / "manifest.json")
+        write_text(self.folder / "manifest.json", json.dumps(manifest, indent=1) + "\n")

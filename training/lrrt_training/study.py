@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+from itertools import cycle
 from pathlib import Path
 from typing import Any
 
@@ -11,12 +12,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import lrrt
+from lrrt.report.style import COLOURS, MARKERS
 
 from . import evaluate as scoring
 from .export import export_onnx, metadata
 from .families.external import ExternalMaps
 from .scenes import SceneSource
-from .store import MazeStore
+from .store import MazeStore, write_text
 from .train import CHECKPOINT, load_data, load_network
 
 MARKS = ("<!-- study: written by the study command -->", "<!-- end of study -->")
@@ -24,7 +26,6 @@ KEPT, MODEL = "study.json", "study.onnx"  #: a run's scores and its exported net
 THRESHOLDS = [round(0.05 * k, 2) for k in range(4, 20)]
 CALIBRATION_MAPS = 100  #: a level, of the evaluation split
 _LABELS = {"accuracy": "accuracy", "redundancy": "redundancy", "connectivity": "connected"}
-_STYLES = [("#0072b2", "o"), ("#d55e00", "s"), ("#009e73", "^"), ("#cc79a7", "D"), ("#56b4e9", "v")]
 
 Result = dict[str, Any]  #: "trained" levels, "threshold", and "scores" by level
 
@@ -53,11 +54,11 @@ def scores_of(run: Path, store: MazeStore, levels: list[int], maps: int) -> Resu
     rows = scoring.metric_by_threshold(
         lrrt.OnnxPredictor(model), groups(stage.levels, "evaluation"), CALIBRATION_MAPS, THRESHOLDS
     )
-    threshold = THRESHOLDS[min(range(len(rows)), key=lambda k: rows[k][0])]
+    threshold = scoring.best_threshold(THRESHOLDS, rows)
     scoring.write_threshold(model, threshold)
     scores = scoring.evaluate(lrrt.OnnxPredictor(model), groups(levels, "test"), maps, raw=True)
     result: Result = {"trained": stage.levels, "threshold": threshold, "scores": scores}
-    kept.write_text(json.dumps({"wanted": wanted, "result": result}))
+    write_text(kept, json.dumps({"wanted": wanted, "result": result}))
     return result
 
 
@@ -88,7 +89,7 @@ def figure(results: dict[str, Result], path: Path) -> None:
 
 
 def _panel(ax: Axes, results: dict[str, Result], key: str) -> None:
-    for (name, result), (colour, marker) in zip(results.items(), _STYLES):
+    for (name, result), (colour, marker) in zip(results.items(), cycle(zip(COLOURS, cycle(MARKERS)))):
         scores = {int(level): row[key] for level, row in result["scores"].items() if level.isdecimal()}
         ax.plot(
             list(scores), list(scores.values()), color=colour, marker=marker, markersize=4, label=name.replace("_", " ")
@@ -108,5 +109,5 @@ def write(page: Path, results: dict[str, Result]) -> None:
         ValueError: the page lacks the marks around the table.
     """
     figure(results, page.with_suffix(".png"))
-    page.with_suffix(".json").write_text(json.dumps(results, indent=1) + "\n")
+    write_text(page.with_suffix(".json"), json.dumps(results, indent=1) + "\n")
     scoring.write_between_marks(page, table(results), MARKS)

@@ -35,5 +35,22 @@ std::vector<std::uint8_t> widened(const OccupancyMap& map, const std::vector<Eig
 
 /// Length of a pixel path between pixel centres, in pixels.
 double path_length(const std::vector<Pixel>& path);
+/// Length of a path of points, in their unit.
+double path_length(const std::vector<Eigen::Vector2d>& path);
+
+/// Length of a path of points after straightening: from every corner it goes on to the last point in a row that a free
+/// straight motion reaches.
+/// @param is_free whether the straight motion between two points is free.
+template <typename IsFree>
+double straightened_length(const std::vector<Eigen::Vector2d>& points, const IsFree& is_free) {
+  double length = 0.0;
+  for (std::size_t from = 0; from + 1 < points.size();) {
+    std::size_t to = from + 1;
+    while (to + 1 < points.size() && is_free(points[from], points[to + 1])) ++to;
+    length += (points[to] - points[from]).norm();
+    from = to;
+  }
+  return length;
+}
 
 }  // namespace lrrt
