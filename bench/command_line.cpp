@@ -8,7 +8,9 @@
 #include "campaign.hpp"
 #include "machine.hpp"
 #include "ompl_log.hpp"
+#include "problem_export.hpp"
 #include "replay.hpp"
+#include "shard.hpp"
 #include "table.hpp"
 
 namespace lrrt::bench {
@@ -80,13 +82,21 @@ std::string heading(const Suite& suite, const Json& document) {
 }
 
 Outcome run_suite(const Request& request, const CancelToken& cancel) {
+  const Shard shard = shard_from_string(request.shard);
   Suite suite = load_suite(request.suite);
   apply(request.overrides, suite);
+  if (!request.problems.empty()) {
+    std::cout << export_problems(suite, request.problems) << " queries in " << request.problems << "/problems.json\n";
+    return Outcome::done;
+  }
   check_outputs(request, suite);
   const int jobs = is_plan(suite) ? request.jobs : 1;  // predictions side by side would measure each other
   warn(suite, jobs);
-  const Campaign campaign = is_plan(suite) ? plan_campaign(suite, cancel) : predict_campaign(suite, cancel);
-  ResultFile results(request.json, header_of(suite, campaign));
+  Campaign campaign = is_plan(suite) ? plan_campaign(suite, cancel) : predict_campaign(suite, cancel);
+  Json header = header_of(suite, campaign);
+  if (!shard.whole()) header["shard"] = {{"number", shard.number}, {"of", shard.of}};
+  campaign.jobs = jobs_of(std::move(campaign.jobs), shard);
+  ResultFile results(request.json, std::move(header));
   const std::optional<Json> document = run(request, campaign, results, cancel, jobs);
   if (!document) return Outcome::interrupted;
   write_outputs(request, suite, *document);

@@ -13,10 +13,12 @@ struct Request {
   std::string suite;   ///< name or file; empty for --replay
   std::string replay;  ///< result file to run again; empty for --suite
   Overrides overrides{};
-  int jobs = 1;      ///< runs at a time
-  std::string json;  ///< files to write; empty for none
+  int jobs = 1;               ///< runs at a time
+  std::string shard = "1/1";  ///< the part of the suite to run
+  std::string json;           ///< files to write; empty for none
   std::string csv;
   std::string ompl_log;
+  std::string problems;  ///< folder for maps and queries; then nothing is run
 };
 
 /// How a run of the program ended, as its exit code.

@@ -68,6 +68,14 @@ void add_options(CLI::App& app, Request& request, bool& list) {
       ->check(CLI::Range(1, 1024))
       ->type_name("N")
       ->capture_default_str();
+  app.add_option("--shard", request.shard,
+                 "Run part K of N only, so that machines can share a suite; 'lrrt sweep' does it for you")
+      ->type_name("K/N")
+      ->excludes(replay);
+  app.add_option("--problems", request.problems,
+                 "Write the suite's maps and queries into a folder, for planners outside this program; runs nothing")
+      ->type_name("FOLDER")
+      ->excludes(replay);
   app.add_option("--json", request.json, "Write configuration and every run; makes the run resumable")
       ->type_name("FILE");
   app.add_option("--csv", request.csv, "Write one line for every run")->type_name("FILE");

@@ -143,7 +143,7 @@ class Predictors {
 };
 
 /// One run of one row on one problem.
-Job job_of(PlanJob job, int run, const IterationLimits& limits) {
+Job job_of(PlanJob job, int run, std::size_t pair, const IterationLimits& limits) {
   job.row.options.seed = job.suite.seed + static_cast<std::uint64_t>(run);
   const std::string id = job.problem->map_name + " | " + job.problem->query + " | " + job.row.name + " | " +
                          std::to_string(job.row.options.seed);
@@ -154,7 +154,7 @@ Job job_of(PlanJob job, int run, const IterationLimits& limits) {
     job.row.options.time_limit = 1e9;
   }
   std::string label = job.problem->map_name + ", " + job.row.name;
-  return {id, std::move(label), [job = std::move(job)] { return run_job(job); }};
+  return {id, std::move(label), [job = std::move(job)] { return run_job(job); }, pair};
 }
 
 }  // namespace
@@ -165,14 +165,15 @@ Campaign plan_campaign(const Suite& suite, const CancelToken& cancel, const Iter
   Predictors predictors(suite, campaign);
   std::vector<std::shared_ptr<const RegionPredictor>> by_row;
   for (const PlanRow& row : body.rows) by_row.push_back(predictors.of(row));
+  std::size_t pair = 0;
   for (const Problem& problem : make_problems(suite)) {
     const auto shared = std::make_shared<const Problem>(problem);
     const auto optimum = std::make_shared<Optimum>();
     campaign.inputs["maps"][problem.map_name] = map_checksum(*problem.map);
     // Rows innermost: whatever else the machine does falls on all of them alike.
-    for (int run = 0; run < body.runs; ++run) {
+    for (int run = 0; run < body.runs; ++run, ++pair) {
       for (std::size_t i = 0; i < body.rows.size(); ++i) {
-        campaign.jobs.push_back(job_of({shared, optimum, by_row[i], body, body.rows[i], cancel}, run, limits));
+        campaign.jobs.push_back(job_of({shared, optimum, by_row[i], body, body.rows[i], cancel}, run, pair, limits));
       }
     }
   }

@@ -98,7 +98,8 @@ Campaign predict_campaign(const Suite& suite, const CancelToken& cancel) {
       campaign.onnxruntime = predictor.info().runtime_version;
       campaign.inputs["models"][setting.model] = file_checksum(setting.file);
     }
-    campaign.jobs.push_back({id_of(setting), id_of(setting), [=] { return run_setting(setting, body, cancel); }});
+    const std::size_t pair = campaign.jobs.size();
+    campaign.jobs.push_back({id_of(setting), id_of(setting), [=] { return run_setting(setting, body, cancel); }, pair});
   }
   return campaign;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ struct Job {
   std::string id;             ///< tells it from the others, also in the next run of the program
   std::string label;          ///< for the progress bar
   std::function<Json()> run;  ///< the row's fields but for its id; called from any thread, once
+  std::size_t pair = 0;       ///< the same for rows on one problem with one seed: they are compared with one another
 };
 
 /// How to run jobs.

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <fstream>
 #include <regex>
@@ -9,10 +10,14 @@
 #include <string>
 
 #include "campaign.hpp"
+#include "lrrt/io/read_map.hpp"
 #include "ompl_log.hpp"
+#include "problem_export.hpp"
+#include "problems.hpp"
 #include "replay.hpp"
 #include "result_file.hpp"
 #include "runner.hpp"
+#include "shard.hpp"
 
 namespace lrrt::bench {
 namespace {
@@ -196,6 +201,45 @@ void read_planner(LogReader& log, int expected_runs) {
   EXPECT_EQ(log.count("runs"), expected_runs);
   for (int i = 0; i < expected_runs; ++i) log.expect("((" + value + ",){" + std::to_string(progress) + "};)*");
   EXPECT_EQ(log.line(), ".");
+}
+
+TEST(Shards, TogetherAreTheWholeAndKeepPairsTogether) {
+  const Campaign campaign = plan_campaign(parse_suite(unguided, "my.yaml", "."), {});
+  std::vector<std::string> ids;
+  for (int number = 1; number <= 4; ++number) {
+    const std::vector<Job> part = jobs_of(campaign.jobs, {number, 4});
+    ASSERT_EQ(part.size() % 2, 0U);
+    for (std::size_t i = 0; i < part.size(); i += 2) EXPECT_EQ(part[i].pair, part[i + 1].pair);
+    for (const Job& job : part) ids.push_back(job.id);
+  }
+  std::vector<std::string> all;
+  for (const Job& job : campaign.jobs) all.push_back(job.id);
+  std::sort(ids.begin(), ids.end());
+  std::sort(all.begin(), all.end());
+  EXPECT_EQ(ids, all);
+}
+
+TEST(Shards, WhatIsNoPartIsRefused) {
+  EXPECT_EQ(shard_from_string("3/3").number, 3);
+  for (const char* text : {"", "1", "0/3", "4/3", "-1/3", "1/3x", "a/b", "1/99999999999"}) {
+    EXPECT_THROW(shard_from_string(text), SuiteError) << text;
+  }
+}
+
+TEST_F(Results, ExportedProblemsAreThoseThatAreRun) {
+  const Suite suite = parse_suite(unguided, "my.yaml", ".");
+  const fs::path folder = file().parent_path() / "problems";
+  EXPECT_EQ(export_problems(suite, folder), 2U);
+  const Json list = Json::parse(std::ifstream(folder / "problems.json"));
+  const Json rows = document_of(suite).at("rows");
+  const std::vector<Problem> problems = make_problems(suite);
+  for (std::size_t i = 0; i < problems.size(); ++i) {
+    const Json& entry = list.at("problems").at(i);
+    EXPECT_EQ(entry.at("map"), problems[i].map_name);
+    EXPECT_EQ(entry.at("optimum"), rows.at(6 * i).at("optimum"));
+    const OccupancyMap map = read_map(folder / entry.at("picture").get<std::string>());
+    EXPECT_EQ(map_checksum(map), map_checksum(*problems[i].map));
+  }
 }
 
 TEST_F(Results, TheOmplLogHasOmplsGrammar) {

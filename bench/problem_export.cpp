@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "problem_export.hpp"
+
+#include <cmath>
+#include <map>
+
+#include "lrrt/io/read_map.hpp"
+#include "problems.hpp"
+#include "reference.hpp"
+#include "result_file.hpp"
+
+namespace lrrt::bench {
+namespace {
+
+Image picture_of(const OccupancyMap& map) {
+  Image image;
+  image.width = map.width();
+  image.height = map.height();
+  image.channels = 1;
+  for (int r = 0; r < map.height(); ++r) {
+    for (int c = 0; c < map.width(); ++c) image.pixels.push_back(map.is_free({c, r}) ? 255 : 0);
+  }
+  return image;
+}
+
+Json point(const Eigen::Vector2d& p) {
+  return {p.x(), p.y()};
+}
+
+Json problem_json(const Problem& problem, const OccupancyMap& map, const std::string& picture, bool reference) {
+  const double optimum = reference ? shortest_length(map, problem.start, problem.goal) : std::nan("");
+  return {{"group", problem.group},
+          {"map", problem.map_name},
+          {"query", problem.query},
+          {"picture", picture},
+          {"resolution", map.resolution()},
+          {"start", point(problem.start)},
+          {"goal", point(problem.goal)},
+          {"start_pixel", point(map.to_pixel(problem.start))},
+          {"goal_pixel", point(map.to_pixel(problem.goal))},
+          {"optimum", std::isfinite(optimum) ? Json(optimum) : Json()}};
+}
+
+}  // namespace
+
+std::size_t export_problems(const Suite& suite, const std::filesystem::path& folder) {
+  const auto* body = std::get_if<PlanSuite>(&suite.body);
+  if (body == nullptr) throw SuiteError("--problems: the suite predicts and plans nothing; expected 'kind: plan'");
+  std::filesystem::create_directories(folder);
+  Json document = {{"suite", to_json(suite)}, {"problems", Json::array()}};
+  std::map<std::string, std::string> pictures;  // by map
+  for (const Problem& problem : make_problems(suite)) {
+    const OccupancyMap map = planning_map(*problem.map, *body);
+    std::string& picture = pictures[problem.map_name];
+    if (picture.empty()) {
+      picture = "map_" + std::to_string(pictures.size()) + ".png";
+      write_png(folder / picture, picture_of(map));
+    }
+    document["problems"].push_back(problem_json(problem, map, picture, body->reference));
+  }
+  write_file(folder / "problems.json", dumped(document, 1) + "\n");
+  return document["problems"].size();
+}
+
+}  // namespace lrrt::bench
