@@ -159,6 +159,7 @@ def info_command(
         "path": str(info.path),
         "name": info.name,
         "input_size": info.input_size,
+        "smaller_inputs": info.smaller_inputs,
         "marker_side": info.marker_side,
         "classes": info.classes,
         "threshold": round(info.threshold, 6),

@@ -59,6 +59,8 @@ void bind_encoder(py::module_& module) {
   py::class_<Encoding>(module, "Encoding", "One encoded query: the network's picture and the way back to the map.")
       .def_property_readonly("image", &image_view, "(3, S, S) uint8, read-only: red, green, blue plane.")
       .def_property_readonly(
+          "size", [](const Encoding& e) { return e.fit.size; }, "Side of the input that was chosen, pixels.")
+      .def_property_readonly(
           "scale", [](const Encoding& e) { return e.fit.scale; }, "Input pixels per map pixel.")
       .def_property_readonly(
           "crop",
@@ -78,14 +80,18 @@ void bind_encoder(py::module_& module) {
            "An (S, S) float32 plane of the input's size back on (H, W) map pixels.");
 
   py::class_<Encoder>(module, "Encoder", "Turns map, start and goal into the RGB picture that the network sees.")
-      .def(py::init([](int size, int marker_side) {
+      .def(py::init([](int size, int marker_side, std::vector<int> smaller, double least_passage) {
              InputSpec spec;
              spec.size = size;
              spec.marker_side = marker_side;
+             spec.smaller = std::move(smaller);
+             spec.least_passage = least_passage;
              return Encoder(spec);
            }),
-           py::arg("size") = 256, py::arg("marker_side") = 5,
-           "`size`: side of the square input; `marker_side`: least side of the start and goal squares, input pixels.")
+           py::arg("size") = 256, py::arg("marker_side") = 5, py::arg("smaller") = std::vector<int>(),
+           py::arg("least_passage") = 5.0,
+           "`size`: side of the square input; `marker_side`: least side of the start and goal squares; `smaller`: "
+           "ascending sides that take its place where passages stay at least `least_passage` wide; all input pixels.")
       .def_property_readonly(
           "size", [](const Encoder& e) { return e.spec().size; }, "Side of the input, pixels.")
       .def_property_readonly(
@@ -151,6 +157,12 @@ void bind_model_info(py::module_& module) {
       .def_readonly("name", &ModelInfo::name, "Name of the model.")
       .def_property_readonly(
           "input_size", [](const ModelInfo& info) { return info.input.size; }, "Side of the input, pixels.")
+      .def_property_readonly(
+          "smaller_inputs", [](const ModelInfo& info) { return info.input.smaller; },
+          "Sides, ascending, used instead where passages stay wide enough, pixels.")
+      .def_property_readonly(
+          "least_passage", [](const ModelInfo& info) { return info.input.least_passage; },
+          "Width that passages must keep in a smaller input, input pixels.")
       .def_property_readonly(
           "marker_side", [](const ModelInfo& info) { return info.input.marker_side; },
           "Least side of the start and goal squares, input pixels.")

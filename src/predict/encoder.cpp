@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <opencv2/imgproc.hpp>
 #include <string>
 
@@ -59,6 +60,17 @@ cv::Mat1b brightness(const OccupancyMap& map, const InputFit& fit) {
   return plane;
 }
 
+/// True when every white pixel of a plane lies in a white square of so many pixels a side.
+bool passages_are_wide(const cv::Mat1b& plane, int side) {
+  const cv::Mat square = cv::getStructuringElement(cv::MORPH_RECT, {side, side});
+  cv::Mat1b free;
+  cv::Mat1b opened;
+  cv::compare(plane, cv::Scalar(255), free, cv::CMP_EQ);
+  cv::erode(free, opened, square, {0, 0}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  cv::dilate(opened, opened, square, {side - 1, side - 1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  return cv::countNonZero(free) == cv::countNonZero(opened);
+}
+
 /// Blends free and obstacle colour by brightness into one colour plane.
 void paint(const cv::Mat1b& bright, std::uint8_t obstacle, std::uint8_t free, cv::Mat1b plane) {
   if (obstacle == 0 && free == 255) {
@@ -110,11 +122,21 @@ std::vector<float> InputFit::to_map(const float* plane) const {
 }
 
 Encoder::Encoder(InputSpec spec) : spec_(spec) {
-  if (spec_.size < 8 || spec_.size > 8192) {
-    throw RequestError("network input of " + std::to_string(spec_.size) + " pixels: expected a side from 8 to 8192");
+  std::vector<int> sides = spec_.smaller;
+  sides.push_back(spec_.size);
+  for (const int side : sides) {
+    if (side >= 8 && side <= 8192) continue;
+    throw RequestError("network input of " + std::to_string(side) + " pixels: expected a side from 8 to 8192");
   }
-  if (spec_.marker_side < 1 || spec_.marker_side > spec_.size) {
+  if (std::adjacent_find(sides.begin(), sides.end(), std::greater_equal<>()) != sides.end()) {
+    throw RequestError("smaller network inputs: expected ascending sides below " + std::to_string(spec_.size));
+  }
+  if (spec_.marker_side < 1 || spec_.marker_side > sides.front()) {
     throw RequestError("marker side of " + std::to_string(spec_.marker_side) +
+                       " pixels: expected 1 to the input's side, " + std::to_string(sides.front()));
+  }
+  if (!(spec_.least_passage >= 1.0 && spec_.least_passage <= spec_.size)) {
+    throw RequestError("least passage of " + std::to_string(spec_.least_passage) +
                        " pixels: expected 1 to the input's side, " + std::to_string(spec_.size));
   }
 }
@@ -123,14 +145,23 @@ InputFit Encoder::encode(const OccupancyMap& map, const Eigen::Vector2d& start, 
                          std::vector<std::uint8_t>& image) const {
   const Pixel start_pixel = free_pixel(map, start, "start");
   const Pixel goal_pixel = free_pixel(map, goal, "goal");
-  const InputFit result = fit(map, spec_.size, part_that_matters(map, start_pixel, goal_pixel));
-  const cv::Mat1b bright = brightness(map, result);
+  const PixelBox crop = part_that_matters(map, start_pixel, goal_pixel);
+  InputFit result = fit(map, spec_.size, crop);
+  cv::Mat1b bright = brightness(map, result);
+  for (const int side : spec_.smaller) {
+    const InputFit smaller = fit(map, side, crop);
+    const double shrink = result.scale / smaller.scale;
+    if (!passages_are_wide(bright, static_cast<int>(std::ceil(spec_.least_passage * shrink - 1e-9)))) continue;
+    result = smaller;
+    bright = brightness(map, result);
+    break;
+  }
   const cv::Rect start_marker = marker(result, start_pixel, spec_.marker_side);
   const cv::Rect goal_marker = marker(result, goal_pixel, spec_.marker_side);
-  const auto plane_size = static_cast<std::size_t>(spec_.size) * static_cast<std::size_t>(spec_.size);
+  const auto plane_size = static_cast<std::size_t>(result.size) * static_cast<std::size_t>(result.size);
   image.resize(3 * plane_size);
   for (std::size_t k = 0; k < 3; ++k) {
-    cv::Mat1b plane(spec_.size, spec_.size, image.data() + k * plane_size);
+    cv::Mat1b plane(result.size, result.size, image.data() + k * plane_size);
     paint(bright, spec_.colours.obstacle[k], spec_.colours.free[k], plane);
     plane(start_marker) = spec_.colours.start[k];
     plane(goal_marker) = spec_.colours.goal[k];

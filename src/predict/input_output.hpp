@@ -27,9 +27,9 @@ void check_threads(int threads);
 /// A tensor's shape for the text of an error, "[1, 3, 256, 256]".
 std::string shape_text(const std::vector<std::int64_t>& shape);
 
-/// Pixels of the network's input, and so of one class in its output.
-inline std::size_t plane_size(const ModelInfo& info) {
-  return static_cast<std::size_t>(info.input.size) * static_cast<std::size_t>(info.input.size);
+/// Pixels of a square: of the network's input, and so of one class in its output.
+inline std::size_t plane_size(int side) {
+  return static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
 }
 
 /// What the calls under way work with: made when all are in use, kept for the next call.
@@ -74,7 +74,8 @@ struct RegionQuery {
 };
 
 /// One prediction, whatever runs the network: encodes the query, runs the network, brings its output back to the map.
-/// @param image receives the picture. @param run runs the network on it and returns its output, class by class.
+/// @param image receives the picture. @param run runs the network on it, given its side, and returns its output, class
+/// by class.
 template <typename Run>
 Prediction predict_region(const ModelInfo& info, const Encoder& encoder, const RegionQuery& query,
                           std::vector<std::uint8_t>& image, const Run& run) {
@@ -82,11 +83,11 @@ Prediction predict_region(const ModelInfo& info, const Encoder& encoder, const R
   Stopwatch watch;
   const InputFit fit = encoder.encode(query.map, query.start, query.goal, image);
   timings.encode = watch.lap_ms();
-  const float* output = run();
+  const float* output = run(fit.size);
   timings.infer = watch.lap_ms();
   const Pixel start = OccupancyMap::pixel_of(query.map.to_pixel(query.start));
   const Pixel goal = OccupancyMap::pixel_of(query.map.to_pixel(query.goal));
-  PromisingRegion region(query.map, fit.to_map(output + info.promising * plane_size(info)), start, goal,
+  PromisingRegion region(query.map, fit.to_map(output + info.promising * plane_size(fit.size)), start, goal,
                          info.threshold);
   if (!region.connected()) {
     region = region.linked(query.map, start, goal, lowest_probability, static_cast<int>(link_halo / fit.scale));

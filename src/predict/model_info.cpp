@@ -2,10 +2,12 @@
 #include "model_info.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <system_error>
 
 #include "lrrt/error.hpp"
 #include "lrrt/predict/onnx_predictor.hpp"
@@ -31,6 +33,8 @@ class Reader {
     if (!value) fail(key, "is missing");
     return *value;
   }
+
+  std::string optional_text(const std::string& key) const { return lookup_(key).value_or(""); }
 
   double number(const std::string& key, double low, double high) const {
     const std::string value = text(key);
@@ -62,6 +66,22 @@ std::vector<std::string> split(const std::string& list) {
   return parts;
 }
 
+/// Sides below `size`, ascending; none where the metadata do not name any.
+std::vector<int> read_smaller(const Reader& reader, int size) {
+  std::vector<int> sides;
+  for (const std::string& part : split(reader.optional_text("smaller_inputs"))) {
+    int side = 0;
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), side);
+    const bool whole = error == std::errc() && end == part.data() + part.size();
+    if (!whole || side < 8 || side >= size || (!sides.empty() && side <= sides.back())) {
+      reader.fail("smaller_inputs", "is '" + reader.text("smaller_inputs") + "', expected ascending sides from 8 to " +
+                                        std::to_string(size - 1) + ", separated by commas");
+    }
+    sides.push_back(side);
+  }
+  return sides;
+}
+
 Colours read_colours(const Reader& reader) {
   const std::string text = reader.text("colours");
   try {
@@ -91,7 +111,10 @@ ModelInfo read_model_info(const std::filesystem::path& path, const MetadataLooku
   info.path = path;
   info.name = reader.text("name");
   info.input.size = reader.whole("input_size", 8, 8192);
-  info.input.marker_side = reader.whole("marker_side", 1, info.input.size);
+  info.input.smaller = read_smaller(reader, info.input.size);
+  if (!info.input.smaller.empty()) info.input.least_passage = reader.number("least_passage", 1.0, info.input.size);
+  const int least_side = info.input.smaller.empty() ? info.input.size : info.input.smaller.front();
+  info.input.marker_side = reader.whole("marker_side", 1, least_side);
   info.input.colours = read_colours(reader);
   info.classes = split(reader.text("classes"));
   const auto promising = std::find(info.classes.begin(), info.classes.end(), "promising");

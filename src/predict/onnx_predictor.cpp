@@ -35,7 +35,7 @@ Ort::SessionOptions session_options(const OnnxOptions& options) {
   return result;
 }
 
-/// Checks one input or output against the contract; -1 stands for any batch size.
+/// Checks one input or output against the contract; -1 stands for any number. A graph whose sides are fixed takes one.
 void check_tensor(const ModelInfo& info, const Ort::TypeInfo& type, const char* name, ONNXTensorElementDataType element,
                   std::int64_t channels) {
   if (type.GetONNXType() != ONNX_TYPE_TENSOR)
@@ -43,13 +43,16 @@ void check_tensor(const ModelInfo& info, const Ort::TypeInfo& type, const char* 
   const auto tensor = type.GetTensorTypeAndShapeInfo();
   const std::vector<std::int64_t> shape = tensor.GetShape();
   const std::int64_t side = info.input.size;
-  const bool fits = shape.size() == 4 && (shape[0] == -1 || shape[0] == 1) && shape[1] == channels &&
-                    shape[2] == side && shape[3] == side;
+  const bool one_side = info.input.smaller.empty();
+  const auto any_or = [](std::int64_t value, std::int64_t expected) { return value == -1 || value == expected; };
+  const bool square = shape.size() == 4 &&
+                      (one_side ? any_or(shape[2], side) && any_or(shape[3], side) : shape[2] == -1 && shape[3] == -1);
+  const bool fits = square && any_or(shape[0], 1) && shape[1] == channels;
   if (!fits || tensor.GetElementType() != element) {
     throw ModelError("model " + info.path.string() + ": '" + name + "' has shape " + shape_text(shape) +
                      " and element type " + std::to_string(tensor.GetElementType()) + ", expected " +
-                     shape_text({-1, channels, side, side}) + " and type " + std::to_string(element) +
-                     ". Its metadata and its graph do not belong together.");
+                     shape_text({-1, channels, one_side ? side : -1, one_side ? side : -1}) + " and type " +
+                     std::to_string(element) + ". Its metadata and its graph do not belong together.");
   }
 }
 
@@ -64,25 +67,14 @@ void check_name(const ModelInfo& info, std::size_t count, const Ort::AllocatedSt
 /// The loaded model and the buffers of the calls under way.
 class OnnxPredictor::Session {
  public:
-  /// Buffers of one call. The tensors are views of the vectors, so a workspace never moves.
+  /// Buffers of one call, large enough for the largest picture.
   struct Workspace {
-    Workspace(const ModelInfo& info, const OrtMemoryInfo* memory)
-        : image(3 * plane_size(info)),
-          probability(info.classes.size() * plane_size(info)),
-          input_shape{1, 3, info.input.size, info.input.size},
-          output_shape{1, static_cast<std::int64_t>(info.classes.size()), info.input.size, info.input.size},
-          input(Ort::Value::CreateTensor<std::uint8_t>(memory, image.data(), image.size(), input_shape.data(), 4)),
-          output(Ort::Value::CreateTensor<float>(memory, probability.data(), probability.size(), output_shape.data(),
-                                                 4)) {}
-    Workspace(const Workspace&) = delete;
-    Workspace& operator=(const Workspace&) = delete;
+    explicit Workspace(const ModelInfo& info) : probability(info.classes.size() * plane_size(info.input.size)) {
+      image.reserve(3 * plane_size(info.input.size));
+    }
 
     std::vector<std::uint8_t> image;
     std::vector<float> probability;
-    std::array<std::int64_t, 4> input_shape;
-    std::array<std::int64_t, 4> output_shape;
-    Ort::Value input;
-    Ort::Value output;
   };
 
   Session(const std::filesystem::path& path, const OnnxOptions& options)
@@ -101,16 +93,28 @@ class OnnxPredictor::Session {
   const ModelInfo& info() const { return info_; }
 
   Prediction predict(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal) {
-    std::unique_ptr<Workspace> workspace = idle_.borrow([&] { return std::make_unique<Workspace>(info_, memory_); });
-    Prediction prediction = predict_region(info_, encoder_, {map, start, goal}, workspace->image, [&] {
-      session_.Run(Ort::RunOptions{nullptr}, &input_name, &workspace->input, 1, &output_name, &workspace->output, 1);
-      return workspace->probability.data();
-    });
+    std::unique_ptr<Workspace> workspace = idle_.borrow([&] { return std::make_unique<Workspace>(info_); });
+    Prediction prediction = predict_region(info_, encoder_, {map, start, goal}, workspace->image,
+                                           [&](int side) { return run(*workspace, side); });
     idle_.give_back(std::move(workspace));
     return prediction;
   }
 
  private:
+  /// Runs the network on the workspace's picture, side × side pixels. @return its output, class by class.
+  const float* run(Workspace& workspace, std::int64_t side) {
+    const auto classes = static_cast<std::int64_t>(info_.classes.size());
+    const std::array<std::int64_t, 4> input_shape{1, 3, side, side};
+    const std::array<std::int64_t, 4> output_shape{1, classes, side, side};
+    const auto pixels = static_cast<std::size_t>(side * side);
+    const Ort::Value input = Ort::Value::CreateTensor<std::uint8_t>(memory_, workspace.image.data(), 3 * pixels,
+                                                                    input_shape.data(), input_shape.size());
+    Ort::Value output = Ort::Value::CreateTensor<float>(
+        memory_, workspace.probability.data(), info_.classes.size() * pixels, output_shape.data(), output_shape.size());
+    session_.Run(Ort::RunOptions{nullptr}, &input_name, &input, 1, &output_name, &output, 1);
+    return workspace.probability.data();
+  }
+
   ModelInfo read_info(const std::filesystem::path& path) {
     const Ort::ModelMetadata metadata = session_.GetModelMetadata();
     Ort::AllocatorWithDefaultOptions allocator;

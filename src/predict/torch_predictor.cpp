@@ -69,11 +69,10 @@ void check_input(const ModelInfo& info, const torch::jit::Module& module) {
 }
 
 /// Checks the output against the contract: of every run, for a program may return what it likes.
-void check_output(const ModelInfo& info, const c10::IValue& value) {
+void check_output(const ModelInfo& info, const c10::IValue& value, std::int64_t side) {
   if (!value.isTensor()) fail(info.path, " returns a " + value.tagKind() + ", expected one tensor. " + advice);
   const at::Tensor& output = value.toTensor();
-  const std::vector<std::int64_t> expected{1, static_cast<std::int64_t>(info.classes.size()), info.input.size,
-                                           info.input.size};
+  const std::vector<std::int64_t> expected{1, static_cast<std::int64_t>(info.classes.size()), side, side};
   if (output.sizes() != expected || output.scalar_type() != at::kFloat) {
     fail(info.path, std::string(" returns shape ") + shape_text(output.sizes().vec()) + " and element type " +
                         c10::toString(output.scalar_type()) + ", expected " + shape_text(expected) + " and " +
@@ -86,27 +85,18 @@ void check_output(const ModelInfo& info, const c10::IValue& value) {
 /// The loaded module and the pictures of the calls under way.
 class TorchScriptPredictor::Network {
  public:
-  /// Picture of one call. The tensor is a view of the vector, so a workspace never moves.
-  struct Workspace {
-    explicit Workspace(const ModelInfo& info)
-        : image(3 * plane_size(info)),
-          input(torch::from_blob(image.data(), {1, 3, info.input.size, info.input.size}, torch::kUInt8)) {}
-    Workspace(const Workspace&) = delete;
-    Workspace& operator=(const Workspace&) = delete;
-
-    std::vector<std::uint8_t> image;
-    at::Tensor input;
-  };
+  /// Picture of one call.
+  using Workspace = std::vector<std::uint8_t>;
 
   explicit Network(const std::filesystem::path& path) : Network(path, load(path)) {}
 
   const ModelInfo& info() const { return info_; }
 
   Prediction predict(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal) {
-    std::unique_ptr<Workspace> workspace = borrow();
+    std::unique_ptr<Workspace> workspace = idle_.borrow([] { return std::make_unique<Workspace>(); });
     at::Tensor output;
-    Prediction prediction = predict_region(info_, encoder_, {map, start, goal}, workspace->image, [&] {
-      output = run(workspace->input);
+    Prediction prediction = predict_region(info_, encoder_, {map, start, goal}, *workspace, [&](int side) {
+      output = run(*workspace, side);
       return output.data_ptr<float>();
     });
     idle_.give_back(std::move(workspace));
@@ -117,24 +107,20 @@ class TorchScriptPredictor::Network {
   Network(const std::filesystem::path& path, Archive archive)
       : module_(std::move(archive.module)), info_(read_info(path, archive.metadata)), encoder_(info_.input) {
     check_input(info_, module_);
-    std::unique_ptr<Workspace> trial = borrow();
-    for (int i = 0; i < 2; ++i) run(trial->input);  // libtorch profiles the first run and compiles before the second
-    idle_.give_back(std::move(trial));
+    Workspace trial(3 * plane_size(info_.input.size));
+    for (int i = 0; i < 2; ++i) run(trial, info_.input.size);  // libtorch profiles the first run, compiles the second
   }
 
-  std::unique_ptr<Workspace> borrow() {
-    return idle_.borrow([&] { return std::make_unique<Workspace>(info_); });
-  }
-
-  at::Tensor run(const at::Tensor& image) {
+  at::Tensor run(Workspace& image, std::int64_t side) {
     const c10::InferenceMode inference;
+    const at::Tensor picture = torch::from_blob(image.data(), {1, 3, side, side}, torch::kUInt8);
     c10::IValue output;
     try {
-      output = module_.forward({image});
+      output = module_.forward({picture});
     } catch (const std::exception& error) {
       fail(info_.path, " failed: " + text_of(error));
     }
-    check_output(info_, output);
+    check_output(info_, output, side);
     return output.toTensor().contiguous();
   }
 

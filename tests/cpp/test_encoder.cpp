@@ -53,6 +53,85 @@ TEST(Encoder, SmallPixelsGetAMarkerOfTheStatedSide) {
   EXPECT_EQ(marked, 25);
 }
 
+InputSpec several_sizes() {
+  InputSpec spec{64, 5, {}};
+  spec.smaller = {16, 32};
+  spec.least_passage = 4.0;
+  return spec;
+}
+
+/// A room of 64 pixels a side, cut in two by a wall with a door.
+OccupancyMap two_rooms(int door) {
+  OccupancyMap map = room(64, 64);
+  std::vector<Cell> cells = map.cells();
+  for (int r = 1; r < 63; ++r) {
+    if (r < 20 || r >= 20 + door) cells[map.index({30, r})] = cells[map.index({31, r})] = Cell::occupied;
+  }
+  return {64, 64, std::move(cells)};
+}
+
+TEST(Encoder, TakesTheSmallestInputThatKeepsPassagesWide) {
+  const Encoder encoder(several_sizes());
+  std::vector<std::uint8_t> image;
+  for (const auto& [door, side] : {std::pair{1, 64}, std::pair{7, 64}, std::pair{8, 32}, std::pair{15, 32},
+                                   std::pair{16, 16}, std::pair{40, 16}}) {
+    const InputFit fit = encoder.encode(two_rooms(door), {10.5, 10.5}, {50.5, 50.5}, image);
+    EXPECT_EQ(fit.size, side) << "door of " << door;
+    EXPECT_EQ(image.size(), static_cast<std::size_t>(3 * side * side));
+    std::vector<std::uint8_t> alone;
+    Encoder({side, 5, {}}).encode(two_rooms(door), {10.5, 10.5}, {50.5, 50.5}, alone);
+    EXPECT_EQ(image, alone) << "door of " << door;  // as if there were no other side
+  }
+}
+
+bool all_free(const OccupancyMap& map, int c, int r, int side) {
+  for (int dr = 0; dr < side; ++dr) {
+    for (int dc = 0; dc < side; ++dc) {
+      if (!map.is_free({c + dc, r + dr})) return false;
+    }
+  }
+  return true;
+}
+
+TEST(Encoder, ASquareOfTheStatedWidthFitsInEveryPassageThatIsShownSmaller) {
+  const Encoder encoder(several_sizes());
+  Random random(7);
+  std::vector<std::uint8_t> image;
+  int smaller = 0;
+  for (int i = 0; i < 300; ++i) {
+    const OccupancyMap map = test::random_map(random, 1, 24);
+    const InputFit fit =
+        encoder.encode(map, test::random_free_point(map, random), test::random_free_point(map, random), image);
+    if (fit.size == 64) continue;
+    ++smaller;
+    const int side = static_cast<int>(std::ceil(4.0 / fit.scale));  // at least, map pixels
+    for (int r = fit.crop.r; r < fit.crop.r + fit.crop.height; ++r) {
+      for (int c = fit.crop.c; c < fit.crop.c + fit.crop.width; ++c) {
+        if (!map.is_free({c, r})) continue;
+        bool covered = false;
+        for (int dr = 0; dr < side && !covered; ++dr) {
+          for (int dc = 0; dc < side && !covered; ++dc) covered = all_free(map, c - dc, r - dr, side);
+        }
+        ASSERT_TRUE(covered) << "map " << i << ", pixel " << c << ' ' << r;
+      }
+    }
+  }
+  EXPECT_GT(smaller, 10);
+}
+
+TEST(Encoder, RefusesSizesThatMakeNoSense) {
+  InputSpec spec = several_sizes();
+  spec.smaller = {32, 16};
+  EXPECT_THROW(Encoder{spec}, RequestError);
+  spec.smaller = {64};
+  EXPECT_THROW(Encoder{spec}, RequestError);
+  spec.smaller = {4};
+  EXPECT_THROW(Encoder{spec}, RequestError);
+  spec.smaller = {32};
+  spec.least_passage = 0.0;
+  EXPECT_THROW(Encoder{spec}, RequestError);
+}
+
 TEST(Encoder, CropsToTheComponentThatMatters) {
   std::vector<std::string> rows(40, std::string(100, '?'));
   for (int r = 10; r < 20; ++r) rows[static_cast<std::size_t>(r)].replace(50, 10, "..........");

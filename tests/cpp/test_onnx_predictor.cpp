@@ -58,9 +58,11 @@ TEST(OnnxPredictor, BringsTheNetworksOutputBackToTheMap) {
 }
 
 TEST(OnnxPredictor, AcceptsMapsOfAnySize) {
-  const OnnxPredictor predictor(tiny("green"));
+  const OnnxPredictor fixed(tiny("green"));
+  const OnnxPredictor several(tiny("sizes"));
   Random random(61);
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 200; ++i) {
+    const OnnxPredictor& predictor = i % 2 == 0 ? fixed : several;
     const OccupancyMap map = test::random_map(random, 1, 100);
     const PromisingRegion region =
         predictor.predict(map, test::random_free_point(map, random), test::random_free_point(map, random)).region;
@@ -122,7 +124,8 @@ INSTANTIATE_TEST_SUITE_P(
                       std::pair{"wrong_size", "expected [-1, 3, 32, 32]"}, std::pair{"odd_size", "'many'"},
                       std::pair{"wrong_classes", "expected [-1, 4, 16, 16]"}, std::pair{"no_promising", "'promising'"},
                       std::pair{"wrong_format", "'99'"}, std::pair{"wrong_colours", "'colours'"},
-                      std::pair{"wrong_threshold", "'threshold'"}));
+                      std::pair{"wrong_threshold", "'threshold'"}, std::pair{"fixed_sizes", "expected [-1, 3, -1, -1]"},
+                      std::pair{"odd_sizes", "'16,8'"}, std::pair{"no_passage", "'least_passage' is missing"}));
 
 TEST(OnnxPredictor, BrokenFilesAreRefused) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "lrrt_test_onnx_predictor";

@@ -44,7 +44,11 @@ METADATA = {
 
 
 def model(
-    classes: int = 3, element: int = TensorProto.UINT8, output: str = "probability", bias: float = 0.0
+    classes: int = 3,
+    element: int = TensorProto.UINT8,
+    output: str = "probability",
+    bias: float = 0.0,
+    side: int | str = SIZE,
 ) -> onnx.ModelProto:
     """image / 255 → 1×1 convolution that copies the green plane into the last class."""
     weight = np.zeros((classes, 3, 1, 1), np.float32)
@@ -58,8 +62,8 @@ def model(
     graph = helper.make_graph(
         nodes,
         "green",
-        [helper.make_tensor_value_info("image", element, ["batch", 3, SIZE, SIZE])],
-        [helper.make_tensor_value_info(output, TensorProto.FLOAT, ["batch", classes, SIZE, SIZE])],
+        [helper.make_tensor_value_info("image", element, ["batch", 3, side, side])],
+        [helper.make_tensor_value_info(output, TensorProto.FLOAT, ["batch", classes, side, side])],
         [
             numpy_helper.from_array(np.array(255.0, np.float32), "scale"),
             numpy_helper.from_array(weight, "weight"),
@@ -163,6 +167,11 @@ def main() -> None:
     save("green", model())
     save("two_classes", model(classes=2), classes="other,promising")
     save("one_class", model(classes=1), classes="promising")
+    sizes = {"input_size": "32", "smaller_inputs": "8,16", "least_passage": "2"}
+    save("sizes", model(side="side"), **sizes)
+    save("fixed_sizes", model(side=32), **sizes)
+    save("odd_sizes", model(side="side"), **{**sizes, "smaller_inputs": "16,8"})
+    save("no_passage", model(side="side"), **{**sizes, "least_passage": None})
     save("nan", model(bias=float("nan")))
     save("float_input", model(element=TensorProto.FLOAT))
     save("other_output", model(output="scores"))

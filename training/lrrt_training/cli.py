@@ -68,7 +68,7 @@ def export(
     output: Annotated[Path, typer.Option(help="ONNX file to write (fp32).")] = MODEL,
     int8: Annotated[bool, typer.Option(help="Quantize to int8 instead, calibrated on training pictures.")] = False,
     torchscript: Annotated[bool, typer.Option(help="Also write a TorchScript archive (.pt) beside it.")] = False,
-    size: Annotated[int, typer.Option(help="Side of the network's input, pixels; 0: that of the last stage.")] = 0,
+    size: Annotated[int, typer.Option(help="Side of the network's input, pixels; 0: those of the last stage.")] = 0,
     training_data: Annotated[str, typer.Option(help="For the metadata: what it was trained on.")] = "",
     training_budget: Annotated[str, typer.Option(help="For the metadata: how long, on what.")] = "",
 ) -> None:
@@ -80,24 +80,35 @@ def export(
         network, training = load_network(run), load_data(run)
     except FileNotFoundError as error:
         raise typer.BadParameter(str(error)) from error
-    size = size or training.curriculum.stages[-1].size
+    stage = training.curriculum.stages[-1]
+    *smaller, size = [size] if size else sorted(set(stage.sizes))
     if size % network.stride:
         raise typer.BadParameter(f"--size {size}: expected a multiple of {network.stride} for this network")
     output.parent.mkdir(parents=True, exist_ok=True)
-    properties = files.metadata(output.stem, size, network.classes, training_data, training_budget, run.name)
+    properties = files.metadata(
+        output.stem,
+        size,
+        network.classes,
+        training_data,
+        training_budget,
+        run.name,
+        smaller=smaller,
+        least_passage=stage.least_block,
+    )
     training.prepare_data()
-    images = training.pictures(CALIBRATION_PICTURES, size)
+    images = [picture for side in [size, *smaller] for picture in training.pictures(CALIBRATION_PICTURES, side)]
+    shown = images[::CALIBRATION_PICTURES] + images[:3]
     fp32 = output.with_suffix(".fp32.onnx") if int8 else output
     try:
         files.export_onnx(network, fp32, size, properties)
-        worst = _report(files.parity(network, fp32, images[:4]), fp32)
+        worst = _report(files.parity(network, fp32, shown), fp32)
         if torchscript:
             archive = output.with_suffix(".pt")
             files.export_torchscript(network, archive, size, properties)
-            worst = max(worst, _report(files.parity(network, archive, images[:4]), archive))
+            worst = max(worst, _report(files.parity(network, archive, shown), archive))
         if int8:
             files.export_int8(fp32, output, images)
-            _report(files.parity(network, output, images[:4]), output)
+            _report(files.parity(network, output, shown), output)
     finally:
         if int8:
             fp32.unlink(missing_ok=True)

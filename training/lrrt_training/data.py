@@ -41,11 +41,31 @@ class Stage:
         default_factory=lambda: list(FAMILIES)
     )  #: drawn from; one named twice comes twice as often
     external_share: float = 0.0  #: share of the samples from external maps (0 where there are none)
+    other_sizes: list[int] = field(default_factory=list)  #: sides that batches take in turn with ``size``
+    least_block: float = 0.0  #: a maze is shown only at sides that give its blocks so many pixels
 
     def __post_init__(self) -> None:
         unknown = sorted(set(self.families) - set(FAMILIES))
         if unknown or not self.families:
             raise ValueError(f"families {unknown}: expected at least one of {', '.join(FAMILIES)}")
+        if self.other_sizes and self.least_block < 1:
+            raise ValueError(f"least_block = {self.least_block}: expected at least 1 where there are other_sizes")
+        for size in self.sizes:
+            if not self.levels_at(size):
+                raise ValueError(f"least_block = {self.least_block}: no level of {self.levels} fits side {size}")
+
+    @property
+    def sizes(self) -> list[int]:
+        """Sides of the network's input, in the order in which batches take them."""
+        return [self.size, *self.other_sizes]
+
+    def size_at(self, sample: int) -> int:
+        """Side of the network's input for a sample, counted from the stage's first."""
+        return self.sizes[sample // self.batch_size % len(self.sizes)]
+
+    def levels_at(self, size: int) -> list[int]:
+        """Maze levels that a side has room for."""
+        return [level for level in self.levels if size >= self.least_block * level]
 
     def learning_rate_at(self, progress: float) -> float:
         """Learning rate at a share of the stage in [0, 1]: a short rise, then half a cosine down to 0."""
@@ -78,6 +98,11 @@ class Curriculum:
         number = self.stage_at(sample)
         return self.stages[number].learning_rate_at((sample - self.begin(number)) / self.stages[number].samples)
 
+    def size_at(self, sample: int) -> int:
+        """Side of the network's input for a sample."""
+        number = self.stage_at(sample)
+        return self.stages[number].size_at(sample - self.begin(number))
+
 
 def encoded(encoder: lrrt.Encoder, scene: Scene) -> dict[str, torch.Tensor]:
     """A scene as the network sees it: ``image`` (3, S, S) uint8 and ``label`` (S, S) uint8 classes."""
@@ -103,17 +128,18 @@ class SceneDataset(Dataset):
         """The planning problem of a sample."""
         rng = np.random.default_rng([self.seed, SPLITS.index(self.source.split), index])
         stage = self.curriculum.stages[self.curriculum.stage_at(index)]
+        size = self.curriculum.size_at(index)
         outside = self.source.external.names()
         draw = rng.random()
         if draw < stage.family_share:
-            return self.source.family(rng, _one_of(rng, stage.families), stage.size)
+            return self.source.family(rng, _one_of(rng, stage.families), size)
         if outside and draw < stage.family_share + stage.external_share:
             return self.source.outside(rng, _one_of(rng, outside))
-        level = _one_of(rng, stage.levels)
-        return self.source.maze(rng, level, stage.size, stage.pixel_share, braided_share=stage.braided_share)
+        level = _one_of(rng, stage.levels_at(size))
+        return self.source.maze(rng, level, size, stage.pixel_share, braided_share=stage.braided_share)
 
     def __getitem__(self, index: int) -> dict[str, Any]:
-        size = self.curriculum.stages[self.curriculum.stage_at(index)].size
+        size = self.curriculum.size_at(index)
         if size not in self._encoders:
             self._encoders[size] = lrrt.Encoder(size=size, marker_side=MARKER_SIDE)
         return {**encoded(self._encoders[size], self.scene(index)), "index": index}

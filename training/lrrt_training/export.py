@@ -12,7 +12,7 @@ import subprocess
 import tempfile
 import warnings
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -68,9 +68,18 @@ def commit() -> str:
 
 
 def metadata(
-    name: str, size: int, classes: int, training_data: str, training_budget: str, training_config: str = ""
+    name: str,
+    size: int,
+    classes: int,
+    training_data: str,
+    training_budget: str,
+    training_config: str = "",
+    smaller: Sequence[int] = (),
+    least_passage: float = 0.0,
 ) -> dict[str, str]:
-    """What the library reads from the file."""
+    """What the library reads from the file. ``smaller``: sides that may take the place of ``size`` where passages stay
+    at least ``least_passage`` input pixels wide."""
+    several = {"smaller_inputs": ",".join(map(str, sorted(smaller))), "least_passage": f"{least_passage:g}"}
     return {
         "lrrt_format": FORMAT,
         "name": name,
@@ -83,6 +92,7 @@ def metadata(
         "training_budget": training_budget,
         "training_config": training_config,
         "commit": commit(),
+        **(several if smaller else {}),
     }
 
 
@@ -102,7 +112,9 @@ def save_onnx(graph: onnx.ModelProto, path: Path, properties: dict[str, str]) ->
 
 
 def export_onnx(network: nn.Module, path: Path, size: int, properties: dict[str, str]) -> None:
-    """Writes the network in fp32 with its probabilities as output."""
+    """Writes the network in fp32 with its probabilities as output. The side is left open where the properties name
+    smaller inputs."""
+    free = {0: "batch", 2: "side", 3: "side"} if "smaller_inputs" in properties else {0: "batch"}
     with tempfile.TemporaryDirectory() as folder, torch.inference_mode():
         plain = Path(folder) / "plain.onnx"
         torch.onnx.export(
@@ -112,7 +124,7 @@ def export_onnx(network: nn.Module, path: Path, size: int, properties: dict[str,
             opset_version=OPSET,
             input_names=["image"],
             output_names=["probability"],
-            dynamic_axes={"image": {0: "batch"}, "probability": {0: "batch"}},
+            dynamic_axes={"image": free, "probability": free},
             dynamo=False,
         )
         save_onnx(onnx.load(plain), path, properties)
@@ -121,8 +133,8 @@ def export_onnx(network: nn.Module, path: Path, size: int, properties: dict[str,
 class _Images(quantization.CalibrationDataReader):
     """Pictures for the calibration, one by one."""
 
-    def __init__(self, images: Tensor) -> None:
-        self._images: Iterator[Tensor] = iter(images)
+    def __init__(self, images: Iterable[Tensor]) -> None:
+        self._images = iter(images)
 
     def get_next(self) -> dict[str, np.ndarray] | None:
         image = next(self._images, None)
@@ -165,13 +177,13 @@ def _take_bytes_as_quantized(graph: onnx.GraphProto) -> None:
         graph.initializer.remove(unused)
 
 
-def export_int8(fp32: Path, path: Path, images: Tensor, threshold: float | None = None) -> None:
+def export_int8(fp32: Path, path: Path, images: Iterable[Tensor], threshold: float | None = None) -> None:
     """Quantizes an fp32 export: static, per channel, weights int8 and activations uint8 (QDQ).
 
     Args:
         fp32: file of ``export_onnx``; its metadata are kept.
         path: file to write.
-        images: (N, 3, S, S) uint8, training pictures that show the range of the activations.
+        images: (3, S, S) uint8 each, training pictures that show the range of the activations.
         threshold: threshold for the metadata, where it shall not be that of the fp32 file.
     """
     properties = properties_of(fp32)
@@ -236,7 +248,8 @@ def own_probabilities(network: nn.Module, images: Tensor) -> np.ndarray:
         return np.concatenate([ready(image[None]).numpy() for image in images])
 
 
-def parity(network: nn.Module, path: Path, images: Tensor) -> float:
-    """Largest difference of any probability between the network and an exported file. (N, 3, S, S) uint8 → float."""
+def parity(network: nn.Module, path: Path, images: Iterable[Tensor]) -> float:
+    """Largest difference of any probability between the network and an exported file over pictures, (3, S, S) uint8."""
     exported = torchscript_probabilities if path.suffix == ".pt" else onnx_probabilities
-    return float(np.abs(own_probabilities(network, images) - exported(path, images)).max())
+    pairs = ((own_probabilities(network, image[None]), exported(path, image[None])) for image in images)
+    return max(float(np.abs(own - other).max()) for own, other in pairs)

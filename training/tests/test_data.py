@@ -97,6 +97,23 @@ def test_types_and_shapes(store):
     assert sample["index"] == 3
 
 
+def test_batches_of_a_stage_take_several_sides_in_turn(store):
+    stage = {"size": 128, "other_sizes": [64, 128, 96], "batch_size": 2, "least_block": 9}
+    samples = dataset(store, levels=[5, 9, 11], **stage)
+    for i in range(24):
+        side = [128, 64, 128, 96][i // 2 % 4]
+        assert samples[i]["image"].shape == (3, side, side) and samples[i]["label"].shape == (side, side)
+        assert 9 * len(samples.scene(i).blocks) <= side, "a level too fine for this side"
+    batches = list(CurriculumBatches(samples.curriculum, rank=1, processes=2))
+    assert all(len({samples.curriculum.size_at(i) for i in batch}) == 1 for batch in batches)
+
+
+@pytest.mark.parametrize("wrong", [{"least_block": 5.0}, {"other_sizes": [32], "least_block": 0.5}])
+def test_sides_that_no_maze_fits_are_refused(wrong):
+    with pytest.raises(ValueError, match="least_block"):
+        Stage(16, 8, 4, [5, 7], **wrong)
+
+
 @pytest.mark.parametrize("size", [64, 128])
 def test_input_is_what_the_library_shows_the_network(store, size):
     """Byte for byte, for mazes, families and maps of other sources."""

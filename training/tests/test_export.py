@@ -110,6 +110,25 @@ def test_parity_with_pytorch(exported, number):
     assert export.parity(network, path, pictures) < export.TOLERANCE
 
 
+@pytest.mark.parametrize("kind", ["fp32", "int8", "torchscript"])
+def test_a_file_for_several_sides_takes_each_of_them(tmp_path, kind):
+    torch.manual_seed(4)
+    network = lively(FastNetwork(8, (16, 24), passes=2), SIZE)
+    stated = export.metadata("small", SIZE, 1, "small mazes", "none: untrained", smaller=[48, 32], least_passage=5)
+    pictures = [torch.randint(0, 256, (3, side, side), dtype=torch.uint8) for side in (SIZE, 48, 32)]
+    path = tmp_path / ("m.pt" if kind == "torchscript" else "m.onnx")
+    if kind == "torchscript":
+        export.export_torchscript(network, path, SIZE, stated)
+    else:
+        export.export_onnx(network, path, SIZE, stated)
+        info = lrrt.OnnxPredictor(path, threads=1).info
+        assert (info.input_size, info.smaller_inputs, info.least_passage) == (SIZE, [32, 48], 5.0)
+        if kind == "int8":
+            export.export_int8(path, path, pictures)
+            assert lrrt.OnnxPredictor(path, threads=1).info.smaller_inputs == [32, 48]
+    assert export.parity(network, path, pictures) < (0.1 if kind == "int8" else export.TOLERANCE)
+
+
 def test_parity_without_aspp(tmp_path):
     torch.manual_seed(4)
     network = lively(PaperNetwork(4, aspp=False), SIZE)

@@ -16,6 +16,9 @@ struct InputSpec {
   int size = 256;       ///< side of the square input, pixels
   int marker_side = 5;  ///< side of the start and goal squares, input pixels; a larger map pixel makes a larger square
   Colours colours{};    ///< colours of the picture
+  /// Sides, ascending, that take the place of `size` where passages stay at least `least_passage` pixels wide in them.
+  std::vector<int> smaller{};
+  double least_passage = 5.0;  ///< input pixels
 };
 
 /// Where a map lies inside the network's input.
@@ -51,14 +54,19 @@ struct InputFit {
 ///
 /// The picture shows the bounding box of the free component of start and goal plus one pixel, so that a small room in a
 /// large empty scan fills the input. Scaling down averages areas: a thin passage or wall stays visible as grey.
+///
+/// Where the network takes smaller pictures too, the smallest is used in which every passage keeps its least width: the
+/// time of a prediction goes with the area of the picture.
 class Encoder {
  public:
-  /// @throws RequestError when the input is smaller than 8 pixels or the marker does not fit into it.
+  /// @throws RequestError when a side is below 8 pixels, the marker does not fit into it, or the smaller sides do not
+  /// ascend below `size`.
   explicit Encoder(InputSpec spec = {});
 
   const InputSpec& spec() const { return spec_; }
 
-  /// @param start,goal map units. @param image receives 3 × size × size bytes: the red, the green, the blue plane.
+  /// @param start,goal map units. @param image receives 3 × side × side bytes, the red, the green, the blue plane; side
+  /// is the `size` of what is returned.
   /// @throws RequestError when start or goal does not lie on a free pixel.
   InputFit encode(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
                   std::vector<std::uint8_t>& image) const;
