@@ -39,11 +39,13 @@ def scene_of(groups: Groups, group: str, number: int, split: str) -> Scene:
 
 
 class Judged:
-    """One prediction beside the truth, both in map pixels."""
+    """One prediction beside the truth, both in map pixels. How wide the true region is outside mazes goes with the
+    picture that the network saw, as in training."""
 
-    def __init__(self, predictor: lrrt.RegionPredictor, size: int, scene: Scene) -> None:
-        grid = scene.occupancy_map()
-        scale = lrrt.Encoder(size=size).encode(grid, scene.start, scene.goal).scale
+    def __init__(self, predictor: lrrt.OnnxPredictor, scene: Scene) -> None:
+        grid, info = scene.occupancy_map(), predictor.info
+        encoder = lrrt.Encoder(info.input_size, smaller=info.smaller_inputs, least_passage=info.least_passage)
+        scale = encoder.encode(grid, scene.start, scene.goal).scale
         self.scene = scene
         self.region = predictor.predict(grid, scene.start, scene.goal)
         self.label = scene.label(scale)
@@ -63,7 +65,7 @@ def evaluate(
     metrics, kinds = RegionMetrics(list(groups)), RegionMetrics(["perfect mazes", "looped mazes"])
     jobs = [(group, number) for group in groups for number in range(maps)]
     for group, number in track(jobs, description=f"{predictor.info.name}: {len(groups)} groups × {maps} maps"):
-        judged = Judged(predictor, predictor.info.input_size, scene_of(groups, group, number, split))
+        judged = Judged(predictor, scene_of(groups, group, number, split))
         linked = judged.region.link_area > 0
         mask = judged.by_threshold(predictor.info.threshold) if raw else judged.region.mask.copy()
         joined = judged.region.connected and not (raw and linked)
@@ -85,7 +87,7 @@ def metric_by_threshold(
     sums = np.zeros((len(thresholds), 2))
     jobs = [(group, number) for group in groups for number in range(maps)]
     for group, number in track(jobs, description=f"{predictor.info.name}: {len(thresholds)} thresholds"):
-        judged = Judged(predictor, predictor.info.input_size, scene_of(groups, group, number, "evaluation"))
+        judged = Judged(predictor, scene_of(groups, group, number, "evaluation"))
         regions = torch.from_numpy(np.stack([judged.by_threshold(t) for t in thresholds]))
         labels = torch.from_numpy(judged.label).expand(len(thresholds), -1, -1)
         sums[:, 0] += metric(regions, labels).numpy()
@@ -140,7 +142,16 @@ def write_manifest(folder: Path, path: Path, scores: Scores, split: str) -> None
     manifest_path = folder / "manifest.json"
     manifest: dict[str, Any] = json.loads(manifest_path.read_text()) if manifest_path.exists() else {"models": {}}
     content, properties = path.read_bytes(), properties_of(path)
-    kept = ("name", "input_size", "threshold", "training_data", "training_budget", "training_config", "commit")
+    kept = (
+        "name",
+        "input_size",
+        "smaller_inputs",
+        "threshold",
+        "training_data",
+        "training_budget",
+        "training_config",
+        "commit",
+    )
     manifest["models"][path.name] = {
         "sha256": hashlib.sha256(content).hexdigest(),
         "bytes": len(content),
@@ -183,7 +194,7 @@ def worst_cases(
     for group in track(groups, description=f"{predictor.info.name}: worst of {maps}"):
 
         def badness(number: int, group: str = group) -> tuple[bool, float]:
-            judged = Judged(predictor, predictor.info.input_size, scene_of(groups, group, number, split))
+            judged = Judged(predictor, scene_of(groups, group, number, split))
             region, label = torch.from_numpy(judged.region.mask.copy())[None], torch.from_numpy(judged.label)[None]
             return not judged.region.connected, float(metric(region, label))
 
@@ -208,7 +219,7 @@ def contact_sheet(
     for row, group in zip(axes, groups):
         chosen = numbers[group] if numbers else range(columns)
         for place, (number, ax) in enumerate(zip(chosen, row)):
-            judged = Judged(predictor, predictor.info.input_size, scene_of(groups, group, number, split))
+            judged = Judged(predictor, scene_of(groups, group, number, split))
             ax.imshow(verdict_picture(judged), interpolation="nearest")
             ax.plot(*judged.scene.start, "o", color="red", markersize=4, markeredgecolor="white", markeredgewidth=0.6)
             ax.plot(*judged.scene.goal, "o", color="blue", markersize=4, markeredgecolor="white", markeredgewidth=0.6)

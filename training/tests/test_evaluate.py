@@ -39,7 +39,7 @@ class Fake:
     """A model that knows the scenes: its probability is a function of their label."""
 
     def __init__(self, groups: scoring.Groups, answer, split: str = "test", threshold: float = 0.5) -> None:
-        self.info = SimpleNamespace(name="fake", input_size=SIZE)
+        self.info = SimpleNamespace(name="fake", input_size=SIZE, smaller_inputs=[], least_passage=5.0)
         self.threshold, self.answers = threshold, {}
         for group in groups:
             for number in range(MAPS):
@@ -133,7 +133,7 @@ def test_raw_scores_know_neither_links_nor_what_the_library_drops(groups, model)
     assert raw["connectivity"] == pytest.approx(whole["connectivity"] - whole["linked"])
     for group in groups:
         for number in range(MAPS):
-            judged = scoring.Judged(predictor, SIZE, scoring.scene_of(groups, group, number, "test"))
+            judged = scoring.Judged(predictor, scoring.scene_of(groups, group, number, "test"))
             alone = judged.by_threshold(predictor.info.threshold)
             assert (alone == ((judged.region.probability >= predictor.info.threshold) & (judged.label != 1))).all()
             if not judged.region.connected:
@@ -264,7 +264,7 @@ def test_colours_of_the_sheet(groups):
     upper[::2] = True
     fake = Fake(groups, lambda label: upper[: label.shape[0], : label.shape[1]])
     scene = scoring.scene_of(groups, "city", 0, "test")
-    judged = scoring.Judged(fake, SIZE, scene)
+    judged = scoring.Judged(fake, scene)
     picture, marked = scoring.verdict_picture(judged), judged.region.mask
     kinds = {
         (0, 0, 0): judged.label == 1,
