@@ -110,10 +110,10 @@ std::shared_ptr<const PromisingRegion> predict(const RegionPredictor& predictor,
   return std::make_shared<const PromisingRegion>(std::move(prediction.region));
 }
 
-MixedSampler sampler_for(const CollisionMap& map, const PromisingRegion* region, const PlanRequest& request,
-                         const PlanOptions& options) {
+MixedSampler sampler_for(const std::shared_ptr<const CollisionMap>& map, const PromisingRegion* region,
+                         const PlanRequest& request, const PlanOptions& options) {
   if (region == nullptr) {
-    return {nullptr, UniformStrategy(map.map().width(), map.map().height()), options.alpha, options.seed};
+    return {nullptr, UniformStrategy(map->map().width(), map->map().height()), options.alpha, options.seed};
   }
   return make_sampler(map, *region, request.start, request.goal, growth_of(options.planner),
                       {options.strategy, options.alpha, options.range, options.seed});
@@ -163,7 +163,7 @@ PlanResult Planner::plan(const PlanRequest& request) const {
   PlanOptions options = options_;
   if (options.range == 0.0) options.range = suitable_range(*collision);
   MapSearch search(collision, request.start, request.goal,
-                   sampler_for(*collision, result.region.get(), request, options), options, request.cancel);
+                   sampler_for(collision, result.region.get(), request, options), options, request.cancel);
   result.timings.prepare += search_watch.lap_ms();
   search.run(result);
   result.timings.total = watch.total_ms();

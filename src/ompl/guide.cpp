@@ -113,9 +113,10 @@ Growth growth_of(const std::string& planner) {
   throw RequestError("planner '" + planner + "' cannot be guided; these can: " + known);
 }
 
-MixedSampler make_sampler(const CollisionMap& map, const PromisingRegion& region, const Eigen::Vector2d& start,
-                          const Eigen::Vector2d& goal, Growth growth, const GuideOptions& options) {
-  const OccupancyMap& grid = map.map();
+MixedSampler make_sampler(const std::shared_ptr<const CollisionMap>& map, const PromisingRegion& region,
+                          const Eigen::Vector2d& start, const Eigen::Vector2d& goal, Growth growth,
+                          const GuideOptions& options) {
+  const OccupancyMap& grid = map->map();
   const Pixel from = free_pixel(grid, start, "start");
   const Pixel to = free_pixel(grid, goal, "goal");
   region.check_belongs_to(grid);
@@ -124,8 +125,9 @@ MixedSampler make_sampler(const CollisionMap& map, const PromisingRegion& region
   const PromisingRegion& bridged = mended ? *mended : region;
   std::unique_ptr<SamplingStrategy> guided;
   if (options.strategy == Strategy::frontier && bridged.connected()) {
-    const double range = options.range > 0.0 ? options.range : suitable_range(map);
-    guided = std::make_unique<FrontierStrategy>(bridged, from, to, FrontierOptions{range / grid.resolution(), growth});
+    const double range = options.range > 0.0 ? options.range : suitable_range(*map);
+    guided = std::make_unique<FrontierStrategy>(std::shared_ptr<const OccupancyMap>(map, &grid), bridged, from, to,
+                                                FrontierOptions{range / grid.resolution(), growth});
   } else if (options.strategy != Strategy::uniform && bridged.area() > 0) {
     guided = std::make_unique<RegionStrategy>(bridged);
   }
@@ -139,7 +141,7 @@ std::shared_ptr<GuidedSource> guide(ob::Planner& planner, const std::shared_ptr<
   if (!projection) projection = std::make_shared<PlaneProjection>();
   const ob::ProblemDefinition& problem = *planner.getProblemDefinition();
   return guide(planner, map,
-               make_sampler(*map, region, projection->read(problem.getStartState(0)),
+               make_sampler(map, region, projection->read(problem.getStartState(0)),
                             goal_position(problem, *projection), growth_of(planner.getName()), options),
                projection);
 }

@@ -25,8 +25,16 @@ constexpr double least_confidence = 0.1;
 constexpr double most_doublings = 30.0;
 /// Share of the draws from the shortest ways alone: where they pass a gap of a pixel, few others of the band lie in it.
 constexpr double way_share = 0.25;
-/// Once a path is known: share of the draws around its corners, and tries for a pixel that could shorten it.
+/// Once a path is known: share of the draws around its corners, the least that stays of it, and by how much a path must
+/// be shorter to be worth more of them.
 constexpr double corner_share = 0.5;
+constexpr double least_corner_share = 0.05;
+constexpr double worthwhile = 1e-3;
+/// Short ways are looked for once so many draws were made that looking at every pixel costs little beside them, and
+/// only on maps on which it takes a few milliseconds: a search must end in time.
+constexpr std::size_t pixels_a_draw = 64;
+constexpr std::size_t most_pixels = std::size_t{1} << 19U;
+/// Before that: tries for a pixel of the region that could shorten the path.
 constexpr int most_tries = 8;
 constexpr double tau = 6.283185307179586;
 
@@ -49,10 +57,13 @@ FrontierStrategy::Front FrontierStrategy::make_front(const Geodesic& to_other, c
   return front;
 }
 
-FrontierStrategy::FrontierStrategy(const PromisingRegion& region, Pixel start, Pixel goal,
-                                   const FrontierOptions& options)
-    : width_(region.width()),
+FrontierStrategy::FrontierStrategy(std::shared_ptr<const OccupancyMap> map, const PromisingRegion& region, Pixel start,
+                                   Pixel goal, const FrontierOptions& options)
+    : map_(std::move(map)),
+      width_(region.width()),
       height_(region.height()),
+      start_(start),
+      goal_(goal),
       step_(options.step),
       growth_(options.growth),
       trees_(growth_ == Growth::two_trees ? 2 : 1),
@@ -78,7 +89,7 @@ FrontierStrategy::FrontierStrategy(const PromisingRegion& region, Pixel start, P
 
 Eigen::Vector2d FrontierStrategy::draw(Random& random) {
   ++stalled_;
-  return path_.empty() ? draw_ahead(random) : draw_on_path(random);
+  return path_.empty() ? draw_ahead(random) : draw_for_shorter(random);
 }
 
 Eigen::Vector2d FrontierStrategy::draw_ahead(Random& random) {
@@ -109,13 +120,23 @@ Pixel FrontierStrategy::draw_on_way(const Front& front, Random& random) const {
   return front.way[low + random.index(high - low)];
 }
 
-Eigen::Vector2d FrontierStrategy::draw_on_path(Random& random) {
-  if (random.uniform() < corner_share) {
-    const Eigen::Vector2d corner = path_[random.index(path_.size())];
-    const double radius = step_ * random.uniform();
-    const double angle = random.uniform(0.0, tau);
-    return corner + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+Eigen::Vector2d FrontierStrategy::draw_for_shorter(Random& random) {
+  ++draws_on_path_;
+  if (random.uniform() < std::max(least_corner_share, corner_share * fading(trust))) return draw_at_corner(random);
+  if (!ways_ && map_->size() <= std::min(most_pixels, pixels_a_draw * draws_on_path_)) {
+    ways_.emplace(*map_, start_, goal_, length_);
   }
+  return ways_ ? ways_->draw(random) : draw_on_region(random);
+}
+
+Eigen::Vector2d FrontierStrategy::draw_at_corner(Random& random) const {
+  const Eigen::Vector2d corner = path_[random.index(path_.size())];
+  const double radius = step_ * random.uniform();
+  const double angle = random.uniform(0.0, tau);
+  return corner + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+}
+
+Eigen::Vector2d FrontierStrategy::draw_on_region(Random& random) const {
   Eigen::Vector2d point = Eigen::Vector2d::Zero();
   for (int i = 0; i < most_tries; ++i) {
     point = point_in(fronts_[0].pixels[random.index(fronts_[0].pixels.size())], random);
@@ -129,9 +150,14 @@ bool FrontierStrategy::contains(const Eigen::Vector2d& point) const {
 }
 
 bool FrontierStrategy::improved(const std::vector<Eigen::Vector2d>& path, double length) {
+  const bool first = path_.empty();
   path_ = path;
   length_ = length;
-  stalled_ = 0;
+  if (ways_) ways_->limit(length);
+  if (first || !(length > (1.0 - worthwhile) * noted_length_)) {
+    noted_length_ = length;
+    stalled_ = 0;
+  }
   return true;
 }
 
@@ -156,9 +182,13 @@ void FrontierStrategy::connected(const Eigen::Vector2d& from, const Eigen::Vecto
   }
 }
 
+double FrontierStrategy::fading(double patience) const {
+  return std::exp2(-static_cast<double>(stalled_) / patience);
+}
+
 double FrontierStrategy::confidence() const {
-  const double patient = growth_ == Growth::batch ? batch_trust : trust;
-  return std::max(least_confidence, std::exp2(-static_cast<double>(stalled_) / patient));
+  if (ways_) return 1.0;  // draws wherever a shorter path could lead are no risk
+  return std::max(least_confidence, fading(growth_ == Growth::batch ? batch_trust : trust));
 }
 
 }  // namespace lrrt

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
 
 #include "lrrt/error.hpp"
+#include "lrrt/map/shortest_path.hpp"
+#include "lrrt/ompl/map_validity.hpp"
 #include "lrrt/sampling/frontier.hpp"
 #include "lrrt/sampling/mixed_sampler.hpp"
 #include "support.hpp"
@@ -22,6 +27,10 @@ const std::vector<std::string>& corridor_rows() {
   return rows;
 }
 
+std::shared_ptr<const OccupancyMap> corridor() {
+  return std::make_shared<const OccupancyMap>(test::map_from_rows(corridor_rows()));
+}
+
 constexpr Pixel start{0, 1};
 constexpr Pixel goal{99, 1};
 
@@ -30,14 +39,14 @@ PromisingRegion whole_of(const OccupancyMap& map) {
 }
 
 TEST(Frontier, DrawsJustAheadOfTheTreeInTheRegion) {
-  const OccupancyMap map = test::map_from_rows(corridor_rows());
-  const PromisingRegion region = whole_of(map);
-  FrontierStrategy frontier(region, start, goal, {3.0});
+  const auto map = corridor();
+  const PromisingRegion region = whole_of(*map);
+  FrontierStrategy frontier(map, region, start, goal, {3.0});
   EXPECT_NEAR(frontier.remaining(0), 99.0, 1e-9);
   Random random(1);
   for (int i = 0; i < 40; ++i) {
     const Eigen::Vector2d point = frontier.draw(random);
-    ASSERT_TRUE(map.is_free(OccupancyMap::pixel_of(point)));
+    ASSERT_TRUE(map->is_free(OccupancyMap::pixel_of(point)));
     ASSERT_LE(point.x(), 2.0 * 3.0 * std::exp2(i / 64.0 + 0.1) + 3.0);
   }
   frontier.connected({0.5, 1.5}, {30.5, 1.5});
@@ -50,8 +59,8 @@ TEST(Frontier, DrawsJustAheadOfTheTreeInTheRegion) {
 }
 
 TEST(Frontier, DeadEndsOfTheRegionAreLeftOut) {
-  const OccupancyMap map = test::map_from_rows(corridor_rows());
-  FrontierStrategy frontier(whole_of(map), start, goal, {3.0});
+  const auto map = corridor();
+  FrontierStrategy frontier(map, whole_of(*map), start, goal, {3.0});
   frontier.connected({0.5, 1.5}, {49.5, 1.5});
   const double before = frontier.remaining(0);
   frontier.connected({49.5, 1.5}, {49.5, 30.5});  // into the dead end: no progress
@@ -64,8 +73,8 @@ TEST(Frontier, DeadEndsOfTheRegionAreLeftOut) {
 }
 
 TEST(Frontier, OnlyMotionsOfTheTreeCount) {
-  const OccupancyMap map = test::map_from_rows(corridor_rows());
-  FrontierStrategy frontier(whole_of(map), start, goal, {3.0});
+  const auto map = corridor();
+  FrontierStrategy frontier(map, whole_of(*map), start, goal, {3.0});
   frontier.connected({40.5, 1.5}, {60.5, 1.5});  // between two samples of a roadmap
   EXPECT_NEAR(frontier.remaining(0), 99.0, 1e-9);
   frontier.connected({0.5, 1.5}, {40.5, 2.5});
@@ -75,8 +84,8 @@ TEST(Frontier, OnlyMotionsOfTheTreeCount) {
 }
 
 TEST(Frontier, ATreeFromTheGoalHasAHorizonOfItsOwn) {
-  const OccupancyMap map = test::map_from_rows(corridor_rows());
-  FrontierStrategy frontier(whole_of(map), start, goal, {3.0, Growth::two_trees});
+  const auto map = corridor();
+  FrontierStrategy frontier(map, whole_of(*map), start, goal, {3.0, Growth::two_trees});
   frontier.connected({80.5, 1.5}, {99.5, 1.5});
   EXPECT_NEAR(frontier.remaining(1), 80.0, 1e-9);
   EXPECT_NEAR(frontier.remaining(0), 99.0, 1e-9);
@@ -87,8 +96,8 @@ TEST(Frontier, ATreeFromTheGoalHasAHorizonOfItsOwn) {
 }
 
 TEST(Frontier, AStalledFrontWidensAndLosesConfidenceUntilThereIsProgress) {
-  const OccupancyMap map = test::map_from_rows(corridor_rows());
-  FrontierStrategy frontier(whole_of(map), start, goal, {3.0});
+  const auto map = corridor();
+  FrontierStrategy frontier(map, whole_of(*map), start, goal, {3.0});
   Random random(4);
   EXPECT_DOUBLE_EQ(frontier.confidence(), 1.0);
   double farthest = 0.0;
@@ -101,8 +110,8 @@ TEST(Frontier, AStalledFrontWidensAndLosesConfidenceUntilThereIsProgress) {
 }
 
 TEST(Frontier, AfterAPathDrawsAreAboutShorteningIt) {
-  const OccupancyMap map = test::map_from_rows(corridor_rows());
-  auto owned = std::make_unique<FrontierStrategy>(whole_of(map), start, goal, FrontierOptions{3.0});
+  const auto map = corridor();
+  auto owned = std::make_unique<FrontierStrategy>(map, whole_of(*map), start, goal, FrontierOptions{3.0});
   MixedSampler sampler(std::move(owned), UniformStrategy(100, 40), 0.5, 5);
   const std::vector<Eigen::Vector2d> path = {{0.5, 1.5}, {50.5, 3.5}, {99.5, 1.5}};
   sampler.improved(path, 99.2);
@@ -115,8 +124,8 @@ TEST(Frontier, AfterAPathDrawsAreAboutShorteningIt) {
 }
 
 TEST(Frontier, BatchesComeFromTheWholeRegionWithoutItsDeadEnds) {
-  const OccupancyMap map = test::map_from_rows(corridor_rows());
-  FrontierStrategy frontier(whole_of(map), start, goal, {3.0, Growth::batch});
+  const auto map = corridor();
+  FrontierStrategy frontier(map, whole_of(*map), start, goal, {3.0, Growth::batch});
   Random random(6);
   int right = 0;
   constexpr int draws = 4000;
@@ -129,10 +138,68 @@ TEST(Frontier, BatchesComeFromTheWholeRegionWithoutItsDeadEnds) {
 }
 
 TEST(Frontier, ARegionThatDoesNotJoinStartAndGoalIsRefused) {
-  const OccupancyMap map = test::map_from_rows({"..#.."});
-  const PromisingRegion region(map, std::vector<float>(5, 1.0F), {0, 0}, {4, 0});
-  EXPECT_THROW(FrontierStrategy(region, {0, 0}, {4, 0}, {3.0}), RequestError);
-  EXPECT_THROW(FrontierStrategy(region, {0, 0}, {1, 0}, {0.0}), RequestError);
+  const auto map = std::make_shared<const OccupancyMap>(test::map_from_rows({"..#.."}));
+  const PromisingRegion region(*map, std::vector<float>(5, 1.0F), {0, 0}, {4, 0});
+  EXPECT_THROW(FrontierStrategy(map, region, {0, 0}, {4, 0}, {3.0}), RequestError);
+  EXPECT_THROW(FrontierStrategy(map, region, {0, 0}, {1, 0}, {0.0}), RequestError);
+}
+
+/// Two ways round a wall of 60 rows: above it 10 pixels wide, below it 10 pixels wide and a little longer.
+std::shared_ptr<const OccupancyMap> two_ways() {
+  std::vector<std::string> rows(80, std::string(100, '.'));
+  for (int r = 10; r < 68; ++r) rows[static_cast<std::size_t>(r)].replace(40, 20, std::string(20, '#'));
+  return std::make_shared<const OccupancyMap>(test::map_from_rows(rows));
+}
+
+TEST(Frontier, AfterAPathTheOtherWayRoundIsLookedForToo) {
+  const auto map = two_ways();
+  std::vector<float> below(map->size(), 1.0F);
+  std::fill_n(below.begin(), 100 * 30, 0.0F);
+  const PromisingRegion region(*map, below, {5, 39}, {95, 39});
+  FrontierStrategy frontier(map, region, {5, 39}, {95, 39}, {3.0});
+  frontier.improved({{5.5, 39.5}, {39.5, 69.5}, {60.5, 69.5}, {95.5, 39.5}}, 113.0);
+  Random random(9);
+  int above = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Eigen::Vector2d point = frontier.draw(random);
+    above += static_cast<int>(i >= 2000 && point.y() < 12.0);
+  }
+  EXPECT_GT(above, 60);
+  EXPECT_DOUBLE_EQ(frontier.confidence(), 1.0);
+}
+
+TEST(ShortWays, HoldsEveryPixelOfEveryShorterPath) {
+  Random random(11);
+  int tried = 0;
+  for (int k = 0; k < 400; ++k) {
+    const OccupancyMap map = test::random_map(random, 5, 30);
+    const auto pixel = [&] { return OccupancyMap::pixel_of(test::random_free_point(map, random)); };
+    const Pixel from = pixel();
+    const Pixel to = pixel();
+    const std::vector<Pixel> there = shortest_path(map, from, to);
+    if (there.empty()) {
+      EXPECT_THROW(ShortWays(map, from, to, 10.0), RequestError);
+      continue;
+    }
+    const Pixel over = pixel();
+    if (shortest_path(map, from, over).empty()) continue;
+    const CollisionMap walls(map);
+    const auto straight = [&](Pixel a, Pixel b) {
+      std::vector<Eigen::Vector2d> points;
+      for (const Pixel p : shortest_path(map, a, b)) points.push_back(map.center(p));
+      return straightened_length(points, [&](const auto& p, const auto& q) { return walls.is_free(p, q); });
+    };
+    ShortWays ways(map, from, to, std::numeric_limits<double>::infinity());
+    const std::size_t all = ways.size();
+    ways.limit(straight(from, over) + straight(over, to));
+    EXPECT_LE(ways.size(), all);
+    bool found = false;
+    for (std::size_t i = 0; i < 40 * ways.size() && !found; ++i)
+      found = OccupancyMap::pixel_of(ways.draw(random)) == over;
+    EXPECT_TRUE(found) << "map " << k;
+    ++tried;
+  }
+  EXPECT_GT(tried, 100);
 }
 
 TEST(Uniform, InformedDrawsFillTheEllipseAndNothingElse) {

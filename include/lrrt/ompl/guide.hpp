@@ -33,8 +33,9 @@ Growth growth_of(const std::string& planner);
 /// The sampler of a strategy over a region, bridged where it has gaps.
 /// @param start,goal map units, on free pixels of the map and joined by free ones.
 /// @throws RequestError when the region's size is not the map's.
-MixedSampler make_sampler(const CollisionMap& map, const PromisingRegion& region, const Eigen::Vector2d& start,
-                          const Eigen::Vector2d& goal, Growth growth, const GuideOptions& options);
+MixedSampler make_sampler(const std::shared_ptr<const CollisionMap>& map, const PromisingRegion& region,
+                          const Eigen::Vector2d& start, const Eigen::Vector2d& goal, Growth growth,
+                          const GuideOptions& options);
 
 /// Makes a planner of any OMPL set-up draw from a promising region, whatever way it asks for samples: the sampler
 /// allocators of its space information, the informed sampler of its objective, the motions and the better paths that

@@ -3,10 +3,13 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "lrrt/region/geodesic.hpp"
 #include "lrrt/region/promising_region.hpp"
+#include "lrrt/sampling/short_ways.hpp"
 #include "lrrt/sampling/strategy.hpp"
 
 namespace lrrt {
@@ -35,14 +38,16 @@ struct FrontierOptions {
 /// region, and the wish for guided draws (`confidence`) fades, so that a wrong region costs little; progress restores
 /// both. Draws take constant time and allocate nothing.
 ///
-/// Once a path is known, half of the draws fall around its corners, where small moves shorten it most (Akgun and
-/// Stilman 2011), the others on the pixels of the region over which a shorter path could lead; the wish for guided
-/// draws fades as long as no better path is found, so that informed uniform draws take over.
+/// Once a path is known, the region has done its job. Half of the draws fall around the path's corners, where small
+/// moves shorten it most (Akgun and Stilman 2011), fewer as the path stops getting shorter; the others wherever a
+/// shorter path could lead (ShortWays), so that a region that led along the wrong side of an obstacle costs little.
 class FrontierStrategy final : public SamplingStrategy {
  public:
-  /// @param region must be connected: see PromisingRegion::bridged. @param start,goal pixels of the region.
+  /// @param map in which the region lies. @param region must be connected: see PromisingRegion::bridged.
+  /// @param start,goal pixels of the region.
   /// @throws RequestError when the region does not join start and goal, or the step is not positive.
-  FrontierStrategy(const PromisingRegion& region, Pixel start, Pixel goal, const FrontierOptions& options);
+  FrontierStrategy(std::shared_ptr<const OccupancyMap> map, const PromisingRegion& region, Pixel start, Pixel goal,
+                   const FrontierOptions& options);
 
   Eigen::Vector2d draw(Random& random) override;
   bool contains(const Eigen::Vector2d& point) const override;
@@ -68,14 +73,21 @@ class FrontierStrategy final : public SamplingStrategy {
   Eigen::Vector2d draw_ahead(Random& random);
   /// A pixel of the shortest ways, as near to the horizon as one step.
   Pixel draw_on_way(const Front& front, Random& random) const;
-  Eigen::Vector2d draw_on_path(Random& random);
+  Eigen::Vector2d draw_for_shorter(Random& random);
+  Eigen::Vector2d draw_at_corner(Random& random) const;
+  Eigen::Vector2d draw_on_region(Random& random) const;
+  /// Share that fades with the draws that brought nothing.
+  double fading(double patience) const;
   bool inside(Pixel p) const { return p.c >= 0 && p.r >= 0 && p.c < width_ && p.r < height_; }
   std::size_t index(Pixel p) const {
     return static_cast<std::size_t>(p.r) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(p.c);
   }
 
+  std::shared_ptr<const OccupancyMap> map_;
   int width_;
   int height_;
+  Pixel start_;
+  Pixel goal_;
   double step_;
   Growth growth_;
   std::size_t trees_;
@@ -85,6 +97,9 @@ class FrontierStrategy final : public SamplingStrategy {
   std::size_t turn_ = 0;               ///< the tree that the next draw is for
   std::vector<Eigen::Vector2d> path_;  ///< the best path so far; empty before the first
   double length_ = 0.0;                ///< of that path, pixels; infinite where cost is no length
+  double noted_length_ = 0.0;          ///< of the path that last was shorter by enough to count
+  std::size_t draws_on_path_ = 0;      ///< since the first path
+  std::optional<ShortWays> ways_;      ///< made when enough draws were asked for to pay for it
 };
 
 }  // namespace lrrt
