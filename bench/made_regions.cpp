@@ -117,7 +117,7 @@ class BadRegion final : public RegionPredictor {
 
 const std::vector<std::string>& made_region_names() {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> all{"astar", "potential"};
+    std::vector<std::string> all{"astar", "eroded", "potential"};
     for (const auto& entry : bad_regions()) all.push_back(entry.first);
     return all;
   }();
@@ -126,6 +126,7 @@ const std::vector<std::string>& made_region_names() {
 
 std::shared_ptr<const RegionPredictor> made_region(const std::string& name) {
   if (name == "astar") return std::make_shared<const AStarPredictor>();
+  if (name == "eroded") return std::make_shared<const AStarPredictor>(1.0);
   if (name == "potential") return std::make_shared<const PotentialFieldPredictor>();
   const auto found = bad_regions().find(name);
   return found == bad_regions().end() ? nullptr : std::make_shared<const BadRegion>(found->second);

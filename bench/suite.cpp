@@ -89,6 +89,26 @@ std::vector<std::string> shipped_suites() {
   return names;
 }
 
+namespace {
+
+/// A user's own map or folder of maps, with queries drawn at random.
+MapSource own_maps(const std::string& path) {
+  std::error_code ignored;
+  const fs::path absolute = fs::absolute(path);
+  if (!fs::exists(absolute, ignored)) throw SuiteError("--maps " + path + ": expected a map file or a folder of maps");
+  MapSource source;
+  source.kind = fs::is_directory(absolute, ignored) ? MapSource::Kind::folder : MapSource::Kind::file;
+  source.name = path;
+  source.path = absolute.string();
+  QuerySource query;
+  query.kind = QuerySource::Kind::random;
+  query.count = 5;
+  source.queries = {query};
+  return source;
+}
+
+}  // namespace
+
 void apply(const Overrides& overrides, Suite& suite) {
   std::visit(
       [&](auto& body) {
@@ -96,7 +116,12 @@ void apply(const Overrides& overrides, Suite& suite) {
         body.seed = overrides.seed.value_or(body.seed);
       },
       suite.body);
-  if (auto* plan = std::get_if<PlanSuite>(&suite.body)) {
+  auto* plan = std::get_if<PlanSuite>(&suite.body);
+  if (plan == nullptr && !overrides.maps.empty())
+    throw SuiteError("--maps: the suite plans nothing; expected 'kind: plan'");
+  if (plan != nullptr) {
+    if (!overrides.maps.empty()) plan->maps.clear();
+    for (const std::string& path : overrides.maps) plan->maps.push_back(own_maps(path));
     for (PlanRow& row : plan->rows) row.options.time_limit = overrides.time_limit.value_or(row.options.time_limit);
   }
 }

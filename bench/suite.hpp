@@ -96,6 +96,7 @@ struct Overrides {
   std::optional<int> runs;
   std::optional<std::uint64_t> seed;
   std::optional<double> time_limit;
+  std::vector<std::string> maps;  ///< files and folders that take the place of the suite's maps
 };
 
 /// Reads a suite.
@@ -110,6 +111,7 @@ Suite load_suite(const std::string& name);
 /// The suites that ship, by name.
 std::vector<std::string> shipped_suites();
 
+/// @throws SuiteError when maps are not there, or the suite has no use for them.
 void apply(const Overrides& overrides, Suite& suite);
 
 /// Everything that a suite says, defaults spelled out. parse_suite() reads it back.

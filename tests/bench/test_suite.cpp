@@ -78,11 +78,31 @@ TEST(Suite, JsonReadsBackTheSame) {
 
 TEST(Suite, OverridesReachEveryRow) {
   Suite suite = parse_suite(small, "my.yaml", ".");
-  apply({7, 99, 1.5}, suite);
+  apply({7, 99, 1.5, {}}, suite);
   const auto& body = std::get<PlanSuite>(suite.body);
   EXPECT_EQ(body.runs, 7);
   EXPECT_EQ(body.seed, 99U);
   for (const PlanRow& row : body.rows) EXPECT_DOUBLE_EQ(row.options.time_limit, 1.5);
+}
+
+TEST(Suite, OwnMapsTakeThePlaceOfTheSuites) {
+  Suite suite = load_suite("smoke");
+  Overrides changes;
+  changes.maps = {LRRT_BENCH_SUITES "/../maps/rooms", LRRT_BENCH_SUITES "/../maps/city/0.png"};
+  apply(changes, suite);
+  const std::vector<Problem> problems = make_problems(suite);
+  EXPECT_EQ(problems.size(), 25U);  // five maps, five queries each
+  for (const Problem& problem : problems)
+    EXPECT_TRUE(problem.group == changes.maps[0] || problem.group == changes.maps[1]);
+  changes.maps = {"nowhere"};
+  EXPECT_THROW(apply(changes, suite), SuiteError);
+  Suite predictions = load_suite("predict");
+  changes.maps = {LRRT_BENCH_SUITES};
+  EXPECT_THROW(apply(changes, predictions), SuiteError);
+}
+
+TEST(Suite, EveryShippedSuiteIsRead) {
+  for (const std::string& name : shipped_suites()) EXPECT_FALSE(load_suite(name).title.empty()) << name;
 }
 
 TEST(Problems, QueriesAreFreeJoinedAndApart) {
@@ -134,6 +154,8 @@ TEST(MadeRegions, AreWhatTheirNamesSay) {
     const auto mask = [&](const char* name) { return made_region(name)->predict(*p.map, p.start, p.goal).region; };
     const PromisingRegion perfect = mask("astar");
     EXPECT_TRUE(perfect.connected());
+    EXPECT_TRUE(mask("eroded").connected());
+    EXPECT_LT(mask("eroded").area(), perfect.area());
     EXPECT_EQ(mask("empty").area(), 0U);
     EXPECT_EQ(mask("full").area(),
               static_cast<std::size_t>(std::count(p.map->cells().begin(), p.map->cells().end(), Cell::free)));
