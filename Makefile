@@ -63,6 +63,10 @@ evaluate: setup-training ## Measure a model on the test mazes: MODEL=models/defa
 bench: build ## Measure: SUITE=smoke, predict, paper or a .yaml file; BENCH_OPTIONS="--json paper.json"
 	@build/$(PRESET)/bench/lrrt_bench --suite $(SUITE) $(BENCH_OPTIONS)
 
+.PHONY: micro
+micro: build ## Time single calls of the library: BENCH_OPTIONS="--benchmark_filter=^region"
+	@build/$(PRESET)/bench/micro/lrrt_micro $(BENCH_OPTIONS)
+
 .PHONY: lint
 lint: install-python ## Check formatting, style and types
 	@scripts/lint.sh check
