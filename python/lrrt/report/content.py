@@ -48,7 +48,7 @@ def chapters(files: Sequence[PlanResults | PredictResults]) -> list[Chapter]:
 
 
 def _chapter(results: PlanResults | PredictResults, all_looks: dict[str, Look]) -> Chapter:
-    command = f"lrrt_bench --replay {shlex.quote(results.head.path.name)}"
+    command = results.head.command or f"lrrt_bench --replay {shlex.quote(results.head.path.name)}"
     if isinstance(results, PredictResults):
         pictures, tables = predict_pictures(results), [predict_table(results)]
         runs = f"{counted(len(results.rows), 'setting', 'settings')}, {len(results.rows[0].times)} predictions each"

@@ -122,13 +122,17 @@ def is_number(value: object) -> TypeGuard[float]:
     return isinstance(value, float) and math.isfinite(value)
 
 
-def read_object(path: Path) -> Fields:
+def read_object(path: Path, writer: str = "lrrt_bench --json") -> Fields:
     """The JSON object that a file holds.
+
+    Args:
+        path: the file.
+        writer: the command that writes such files, for errors.
 
     Raises:
         ResultError: there is no such file, or it holds something else.
     """
-    expected = "expected a file that lrrt_bench --json wrote"
+    expected = f"expected a file that {writer} wrote"
     try:
         text = path.read_text(encoding="utf-8")
     except OSError as error:

@@ -84,6 +84,7 @@ class Head:
     versions: dict[str, str]
     machine: dict[str, str]
     started: str  #: UTC; empty where the file does not say
+    command: str = ""  #: makes the file again; empty where lrrt_bench wrote it and can replay it
 
 
 @dataclass(frozen=True)
@@ -176,7 +177,8 @@ def _head(document: Fields, suite: Fields, path: Path) -> Head:
     if "cores" in machine:
         about["cores"] = str(machine.whole("cores"))
     title = suite.text("title", "") or path.stem
-    return Head(path, title, {k: v for k, v in named.items() if v}, about, document.text("started", ""))
+    named = {key: version for key, version in named.items() if version}
+    return Head(path, title, named, about, document.text("started", ""), document.text("command", ""))
 
 
 def _setting(fields: Fields) -> Setting:
