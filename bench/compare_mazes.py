@@ -29,7 +29,12 @@ import lrrt
 from lrrt_training import mazes
 
 PICTURE_SIDE = 256
-STRATEGIES = {"RRT*": "uniform", "L-RRT*, region": "region", "L-RRT*, frontier": "frontier"}
+PLANNERS = {  # strategy, and what finds near nodes: RRT* as OMPL ships it comes first, the others are told against it
+    "RRT*": ("uniform", "ompl"),
+    "RRT*, our neighbours": ("uniform", "grid"),
+    "L-RRT*, region": ("region", "grid"),
+    "L-RRT*, frontier": ("frontier", "grid"),
+}
 TEST_SPLIT = 2  # the training package numbers its splits: train 0, evaluation 1, test 2
 
 
@@ -80,7 +85,7 @@ def problem(level: int, index: int) -> tuple[lrrt.OccupancyMap, tuple[float, flo
 
 def run(name: str, maze: int, level: int, predictor: lrrt.OnnxPredictor, args: argparse.Namespace) -> Run:
     """One plan; the seed is the maze's number."""
-    strategy = STRATEGIES[name]
+    strategy, neighbors = PLANNERS[name]
     guided = strategy != "uniform"
     map_, start, goal = problem(level, maze)
     result = lrrt.plan(
@@ -94,6 +99,7 @@ def run(name: str, maze: int, level: int, predictor: lrrt.OnnxPredictor, args: a
         stop="first",
         range=args.range,
         time_limit=args.time_limit,
+        neighbors=neighbors,
         seed=maze + 1,
     )
     return Run(
@@ -151,7 +157,7 @@ def main() -> None:
     for maze in track(range(args.mazes), description=f"{args.level}×{args.level} mazes"):
         map_, start, goal = problem(args.level, maze)
         connected += predictor.predict(map_, start, goal).connected
-        runs += [run(name, maze, args.level, predictor, args) for name in STRATEGIES]
+        runs += [run(name, maze, args.level, predictor, args) for name in PLANNERS]
     console = Console(width=150)
     mazes_text = f"{args.mazes} perfect mazes of {args.level}×{args.level} blocks, 256×256 pixels"
     console.print(table(runs, f"First path in {mazes_text}, α = {args.alpha:g}"))

@@ -22,9 +22,9 @@ constexpr NumberRule lengths{0, endless, "0 or a positive length in map units"};
 constexpr NumberRule seconds{1e-6, endless, "a positive number of seconds"};
 constexpr NumberRule factors{1, endless, "a factor from 1 on"};
 
-const std::vector<std::string> row_keys = {"planner",     "strategy",   "alpha",          "model",
-                                           "range",       "goal_bias",  "goal_tolerance", "stop",
-                                           "cost_factor", "time_limit", "iteration_limit"};
+const std::vector<std::string> row_keys = {"planner",     "strategy",   "alpha",           "model",
+                                           "range",       "goal_bias",  "goal_tolerance",  "stop",
+                                           "cost_factor", "time_limit", "iteration_limit", "neighbors"};
 
 /// Stands in for a model while options are checked.
 class NoPredictor final : public RegionPredictor {
@@ -167,6 +167,8 @@ PlanRow read_common(const Fields& fields, const PlanRow& fallback) {
   o.goal_tolerance = fields.number("goal_tolerance", o.goal_tolerance, lengths);
   row.stop = fields.text("stop", row.stop);
   o.stop = checked_word(fields, "stop", row.stop, stop_from_string);
+  row.neighbors = fields.text("neighbors", row.neighbors);
+  o.neighbors = checked_word(fields, "neighbors", row.neighbors, neighbors_from_string);
   o.cost_factor = fields.number("cost_factor", o.cost_factor, factors);
   o.time_limit = fields.number("time_limit", o.time_limit, seconds);
   const std::int64_t limit = fields.count("iteration_limit", -1, counts_or_zero);

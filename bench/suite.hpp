@@ -53,6 +53,7 @@ struct PlanRow {
   std::string strategy = "region";  ///< a word that the library knows
   std::string model = "default";    ///< a file, the model that ships, or one of made_region_names()
   std::string stop = "first";       ///< a word that the library knows
+  std::string neighbors = "grid";   ///< a word that the library knows
   PlanOptions options;              ///< complete but for the seed
 };
 

@@ -49,7 +49,8 @@ Json to_json(const PlanRow& row) {
           {"model", row.model},         {"range", o.range},
           {"goal_bias", o.goal_bias},   {"goal_tolerance", o.goal_tolerance},
           {"stop", row.stop},           {"cost_factor", o.cost_factor},
-          {"time_limit", o.time_limit}, {"iteration_limit", unlimited ? 0 : o.iteration_limit}};
+          {"time_limit", o.time_limit}, {"iteration_limit", unlimited ? 0 : o.iteration_limit},
+          {"neighbors", row.neighbors}};
 }
 
 Json body_json(const PlanSuite& suite) {

@@ -52,6 +52,12 @@ Strategy strategy_from_string(const std::string& word) {
   return from_word("strategy", word, table);
 }
 
+Neighbors neighbors_from_string(const std::string& word) {
+  constexpr std::array<std::pair<const char*, Neighbors>, 2> table = {
+      {{"grid", Neighbors::grid}, {"ompl", Neighbors::ompl}}};
+  return from_word("neighbors", word, table);
+}
+
 Stop stop_from_string(const std::string& word) {
   constexpr std::array<std::pair<const char*, Stop>, 3> table = {
       {{"first", Stop::first}, {"factor", Stop::factor}, {"limit", Stop::limit}}};

@@ -52,6 +52,15 @@ enum class Stop {
 /// @throws RequestError for an unknown word; the text lists the known ones.
 Stop stop_from_string(const std::string& word);
 
+/// What finds the nodes of a tree that are near.
+enum class Neighbors {
+  grid,  ///< GridNeighbors, for trees in the plane: a share of OMPL's time, and the same nodes
+  ompl,  ///< what OMPL itself takes: for comparisons with OMPL as it ships
+};
+
+/// @throws RequestError for an unknown word; the text lists the known ones.
+Neighbors neighbors_from_string(const std::string& word);
+
 /// Lets another thread end a search. Copies share one flag, and a flag that was raised stays up: one token, one search.
 class CancelToken {
  public:
@@ -85,8 +94,9 @@ struct PlanOptions {
   double cost_factor = 1.05;
   double time_limit = 5.0;  ///< seconds of planning, prediction not counted
   std::size_t iteration_limit = std::numeric_limits<std::size_t>::max();
-  std::uint64_t seed = 1;  ///< same seed, same result on one thread (unless time ends the search)
-  bool keep_tree = false;  ///< return the tree's edges
+  std::uint64_t seed = 1;                 ///< same seed, same result on one thread (unless time ends the search)
+  bool keep_tree = false;                 ///< return the tree's edges
+  Neighbors neighbors = Neighbors::grid;  ///< time only: the result is the same
 };
 
 /// Wall-clock time of each stage, milliseconds.

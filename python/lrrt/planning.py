@@ -52,6 +52,7 @@ def plan(
     unknown: str = "occupied",
     seed: int = 1,
     keep_tree: bool = False,
+    neighbors: str = "grid",
     cancel: CancelToken | None = None,
 ) -> PlanResult:
     """Plans a path from start to goal, guided by the promising region that a network marks.
@@ -80,6 +81,8 @@ def plan(
         unknown: ``"occupied"`` or ``"free"``: what unknown pixels count as.
         seed: same seed, same result, unless time ends the search.
         keep_tree: fill ``result.tree``.
+        neighbors: what finds the near nodes of a tree: ``"grid"``, ours, or ``"ompl"``, what OMPL itself takes; a matter of
+            time only.
         cancel: a token that another thread may use to end the search.
 
     Raises:
@@ -107,5 +110,6 @@ def plan(
         unknown=unknown,
         seed=seed,
         keep_tree=keep_tree,
+        neighbors=neighbors,
         cancel=cancel,
     )

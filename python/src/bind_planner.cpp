@@ -43,7 +43,7 @@ PlanResult plan(const OccupancyMap& map, const Eigen::Vector2d& start, const Eig
                 const std::optional<std::shared_ptr<RegionPredictor>>& predictor, const std::string& stop,
                 double cost_factor, double time_limit, std::optional<std::size_t> iteration_limit, double range,
                 double goal_bias, double goal_tolerance, double radius, const std::string& unknown, std::uint64_t seed,
-                bool keep_tree, const std::optional<CancelToken>& cancel) {
+                bool keep_tree, const std::string& neighbors, const std::optional<CancelToken>& cancel) {
   PlanOptions options;
   options.planner = planner;
   options.strategy = strategy_from_string(strategy);
@@ -57,6 +57,7 @@ PlanResult plan(const OccupancyMap& map, const Eigen::Vector2d& start, const Eig
   if (iteration_limit) options.iteration_limit = *iteration_limit;
   options.seed = seed;
   options.keep_tree = keep_tree;
+  options.neighbors = neighbors_from_string(neighbors);
   PlanRequest request{map, start, goal, radius, unknown_from(unknown)};
   if (cancel) request.cancel = *cancel;
   return plan_interruptibly(Planner(predictor.value_or(nullptr), options), request);
@@ -152,7 +153,7 @@ void bind_planner(py::module_& module) {
              py::arg("iteration_limit") = py::none(), py::arg("range") = defaults.range,
              py::arg("goal_bias") = defaults.goal_bias, py::arg("goal_tolerance") = defaults.goal_tolerance,
              py::arg("radius") = 0.0, py::arg("unknown") = "occupied", py::arg("seed") = defaults.seed,
-             py::arg("keep_tree") = false, py::arg("cancel") = py::none(),
+             py::arg("keep_tree") = false, py::arg("neighbors") = "grid", py::arg("cancel") = py::none(),
              "Plans a path. See lrrt.plan, which adds the default predictor.");
 }
 

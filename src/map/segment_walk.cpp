@@ -14,7 +14,7 @@ constexpr double slack = 1.5;
 /// Two crossings nearer than this, in pixels, are one corner: quotients that should be equal differ by rounding.
 constexpr double corner_width = 1e-9;
 /// Below this clearance a leap is hardly longer than a step and costs more.
-constexpr float leap_from = 4.0F;
+constexpr float leap_from = 8.0F;
 
 /// One axis of the walk: where the segment crosses from one pixel to the next, as a share of its length.
 struct Axis {

@@ -76,7 +76,9 @@ MapSearch::MapSearch(std::shared_ptr<const CollisionMap> map, const Eigen::Vecto
   objective->setCostThreshold(target_cost());
   problem_->setOptimizationObjective(objective);
 
-  planner_ = make_planner(options_.planner, si_, {options_.range, options_.goal_bias, planner_seed(options_.seed)});
+  planner_ = make_planner(
+      options_.planner, si_,
+      {options_.range, options_.goal_bias, planner_seed(options_.seed), options_.neighbors == Neighbors::grid});
   planner_.planner->setProblemDefinition(problem_);
   source_ = guide(*planner_.planner, map_, std::move(sampler), projection_);
   planner_.planner->setup();

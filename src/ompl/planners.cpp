@@ -28,6 +28,7 @@
 #include <type_traits>
 
 #include "lrrt/error.hpp"
+#include "lrrt/ompl/grid_neighbors.hpp"
 
 namespace lrrt {
 namespace {
@@ -55,8 +56,9 @@ constexpr bool has_goal_bias = is_a<Planner, og::RRT, og::RRTstar, og::RRTXstati
 template <typename Planner>
 class Seeded final : public Planner {
  public:
-  Seeded(const ob::SpaceInformationPtr& si, std::uint32_t seed) : Planner(si) {
-    if constexpr (has_random_numbers<Planner>) this->rng_.setLocalSeed(seed);
+  Seeded(const ob::SpaceInformationPtr& si, const PlannerSettings& settings) : Planner(si) {
+    if constexpr (has_random_numbers<Planner>) this->rng_.setLocalSeed(settings.seed);
+    if (settings.grid) use_grid(settings.range);
     // OMPL 1.5 warns of its own default: the plain name is for the version that connects within a radius
     if constexpr (is_a<Planner, og::BITstar>) {
       if (this->getName().front() != 'k') this->setName("k" + this->getName());
@@ -74,11 +76,24 @@ class Seeded final : public Planner {
       return data.numVertices();
     }
   }
+
+ private:
+  /// Gives trees in the plane our own nearest neighbours; setup() keeps what is there.
+  void use_grid(double range) {
+    const auto* plane = dynamic_cast<const ob::RealVectorStateSpace*>(this->si_->getStateSpace().get());
+    if (plane == nullptr || plane->getDimension() != 2) return;
+    if constexpr (is_a<Planner, og::RRTConnect>) {
+      this->tStart_ = std::make_shared<GridNeighbors<typename Planner::Motion*>>(plane->getBounds(), range);
+      this->tGoal_ = std::make_shared<GridNeighbors<typename Planner::Motion*>>(plane->getBounds(), range);
+    } else if constexpr (has_one_tree<Planner>) {
+      this->nn_ = std::make_shared<GridNeighbors<typename Planner::Motion*>>(plane->getBounds(), range);
+    }
+  }
 };
 
 template <typename Planner>
 MapPlanner make(const ob::SpaceInformationPtr& si, const PlannerSettings& settings) {
-  const auto planner = std::make_shared<Seeded<Planner>>(si, settings.seed);
+  const auto planner = std::make_shared<Seeded<Planner>>(si, settings);
   if constexpr (has_range<Planner>) planner->setRange(settings.range);
   if constexpr (has_goal_bias<Planner>) planner->setGoalBias(settings.goal_bias);
   if constexpr (is_a<Planner, og::RRTstar, og::RRTXstatic>) planner->setKNearest(false);

@@ -162,6 +162,26 @@ TEST_P(EveryPlanner, TheSameSeedGivesTheSameResult) {
   EXPECT_GT(different, 0);
 }
 
+TEST(Planner, TheGridOfNeighboursChangesNothingButTheTime) {
+  Random random(57);
+  for (const char* name : {"RRT", "RRTConnect", "RRTstar", "InformedRRTstar", "RRTsharp"}) {
+    for (int i = 0; i < 6; ++i) {
+      const OccupancyMap map = test::random_map(random, 20, 60);
+      PlanOptions options = unguided(name);
+      options.iteration_limit = 3000;
+      options.stop = std::string(name) == "RRT" || std::string(name) == "RRTConnect" ? Stop::first : Stop::limit;
+      const PlanRequest request{map, test::random_free_point(map, random), test::random_free_point(map, random)};
+      const PlanResult ours = Planner(nullptr, options).plan(request);
+      options.neighbors = Neighbors::ompl;
+      const PlanResult theirs = Planner(nullptr, options).plan(request);
+      EXPECT_EQ(ours.status, theirs.status) << name;
+      EXPECT_EQ(ours.iterations, theirs.iterations) << name;
+      EXPECT_EQ(ours.nodes, theirs.nodes) << name;
+      EXPECT_EQ(ours.path, theirs.path) << name;
+    }
+  }
+}
+
 TEST_P(EveryPlanner, PlansInMetresWithAnOriginAndAYaw) {
   Random random(53);
   int solved = 0;

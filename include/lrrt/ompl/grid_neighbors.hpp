@@ -14,16 +14,16 @@
 
 namespace lrrt {
 
-/// Nearest neighbours of a planner's nodes in the plane: a grid of cells about as large as one step of the planner, each
-/// with the nodes in it. A query looks at the cells around it and computes distances itself, where OMPL's trees of
+/// Nearest neighbours of a planner's nodes in the plane: a grid of cells about as large as one step of the planner,
+/// each with the nodes in it. A query looks at the cells around it and computes distances itself, where OMPL's trees of
 /// pivots call back for each of them.
 ///
 /// Motion is a pointer to something with a `state` of RealVectorStateSpace(2).
 template <typename Motion>
 class GridNeighbors final : public ompl::NearestNeighbors<Motion> {
  public:
-  /// @param bounds of the space; nodes outside are kept in the cells at its edge. @param step side of a cell, if the grid
-  /// then has at most most_cells a side.
+  /// @param bounds of the space; nodes outside are kept in the cells at its edge. @param step side of a cell, if the
+  /// grid then has at most most_cells a side.
   GridNeighbors(const ompl::base::RealVectorBounds& bounds, double step) : low_{bounds.low[0], bounds.low[1]} {
     const double width = bounds.high[0] - bounds.low[0];
     const double height = bounds.high[1] - bounds.low[1];
@@ -127,9 +127,7 @@ class GridNeighbors final : public ompl::NearestNeighbors<Motion> {
     const auto* values = motion->state->template as<ompl::base::RealVectorStateSpace::StateType>()->values;
     return {values[0], values[1]};
   }
-  static double squared_distance(Point a, Point b) {
-    return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
-  }
+  static double squared_distance(Point a, Point b) { return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y); }
   static int clamped(double cell, int count) {
     return static_cast<int>(std::clamp(std::floor(cell), 0.0, static_cast<double>(count - 1)));
   }
