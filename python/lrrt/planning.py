@@ -81,8 +81,8 @@ def plan(
         unknown: ``"occupied"`` or ``"free"``: what unknown pixels count as.
         seed: same seed, same result, unless time ends the search.
         keep_tree: fill ``result.tree``.
-        neighbors: what finds the near nodes of a tree: ``"grid"``, ours, or ``"ompl"``, what OMPL itself takes; a matter of
-            time only.
+        neighbors: what finds the near nodes of a tree: ``"grid"``, ours, or ``"ompl"``, what OMPL itself takes; a
+            matter of time only.
         cancel: a token that another thread may use to end the search.
 
     Raises:
