@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command line: ``lrrt plan``, ``lrrt predict``, ``lrrt info``, ``lrrt report``.
+"""The command line: ``lrrt plan``, ``lrrt predict``, ``lrrt info``, ``lrrt report``, ``lrrt sweep``.
 
-Exit codes: 0 done (a path was found), 2 bad input, 3 no path.
+Exit codes: 0 done (a path was found), 2 bad input, 3 no path, 130 interrupted (``lrrt sweep``).
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
 from rich.console import Console
+from rich.progress import MofNCompleteColumn, Progress
 from rich.table import Table
 
 from lrrt._core import Error, OccupancyMap, OnnxPredictor, PlanResult, planner_names
@@ -25,6 +26,25 @@ if TYPE_CHECKING:
 
 EXIT_BAD_INPUT = 2
 EXIT_NO_PATH = 3
+EXIT_INTERRUPTED = 130
+
+SWEEP_HELP = (
+    "Share a benchmark suite between machines, with Ray.\n\n"
+    "Workers run lrrt_bench on parts (shards) of the suite; FILE receives what one run of all would have written, and "
+    "the same tables are printed. A shard whose worker or machine is lost is run again elsewhere. After Ctrl-C the "
+    "same command goes on: finished shards lie beside FILE until it is written.\n\n"
+    "Shards side by side on one machine slow each other down. Compare iterations and nodes, which stay the same "
+    "unless the clock ends a search, or give each shard a machine of its own with [bold]--exclusive[/bold] "
+    "where times are wanted.\n\n"
+    'Every machine needs lrrt with Ray (pip install "lrrt\\[sweep]"), the same versions of Python, Ray and lrrt_bench, '
+    "and lrrt_bench and the suite with its maps and models at the same paths, as in a shared folder. Relative paths "
+    "count from where the command is given. Where the folder of FILE is shared, unfinished shards are gone on with, "
+    "too.\n\n"
+    "Example: [bold]lrrt sweep smoke --shards 4 --json smoke.json --bench build/release/bench/lrrt_bench[/bold]\n\n"
+    "Example: [bold]ray start --head[/bold] on one machine, [bold]ray start --address HOST:6379[/bold] on the others, "
+    "then [bold]lrrt sweep paper --ray auto --shards 60 --exclusive --json paper.json[/bold]\n\n"
+    "Exit codes: 0 done, 2 bad input, 130 interrupted."
+)
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -205,6 +225,51 @@ def report_command(
         _fail(error)
     for path in written:
         typer.echo(path)
+
+
+@app.command("sweep", help=SWEEP_HELP)
+def sweep_command(
+    suite: Annotated[str, typer.Argument(metavar="SUITE", help="Name or .yaml file, as lrrt_bench --suite takes it.")],
+    result: Annotated[Path, typer.Option("--json", metavar="FILE", help="File to write, as lrrt_bench --json does.")],
+    shards: Annotated[int, typer.Option(min=1, max=999_999, metavar="N", help="Parts; several for each CPU.")],
+    ray: Annotated[
+        str,
+        typer.Option(
+            metavar="ADDRESS",
+            help="local (this machine), auto (the cluster that this machine is part of), or HOST:PORT of a cluster.",
+        ),
+    ] = "local",
+    bench: Annotated[str, typer.Option(metavar="PROGRAM", help="lrrt_bench, in PATH or with its path.")] = "lrrt_bench",
+    runs: Annotated[int | None, typer.Option(min=1, metavar="N", help="Seeds a query, instead of the suite's.")] = None,
+    seed: Annotated[int | None, typer.Option(min=0, metavar="S", help="Seed of the first run.")] = None,
+    time_limit: Annotated[float | None, typer.Option(metavar="SECONDS", help="Longest search.")] = None,
+    cpus: Annotated[
+        int, typer.Option(min=1, metavar="N", help="CPUs that a shard reserves; guided rows use up to 2.")
+    ] = 1,
+    exclusive: Annotated[
+        bool, typer.Option("--exclusive", help="Reserve all CPUs of a machine for a shard; --cpus is not asked.")
+    ] = False,
+) -> None:
+    """Share a benchmark suite between machines; SWEEP_HELP says how."""
+    from lrrt.report import terminal_report
+    from lrrt.sweep import Sweep, finished_shards, run_sweep
+
+    console = Console(stderr=True, soft_wrap=True, highlight=False)
+    if shards > 1 and not exclusive:
+        console.print("note: shards side by side share a machine: compare iterations, or give --exclusive for times")
+    sweep = Sweep(suite, result, shards, bench, runs, seed, time_limit)
+    columns = (*Progress.get_default_columns(), MofNCompleteColumn())
+    try:
+        with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
+            task = bar.add_task("shards", total=shards)
+            run_sweep(sweep, ray, cpus=cpus, exclusive=exclusive, progress=lambda n: bar.update(task, completed=n))
+        typer.echo(terminal_report(result), nl=False)
+    except Error as error:
+        _fail(error)
+    except KeyboardInterrupt:
+        done = finished_shards(sweep)
+        console.print(f"interrupted after {done} of {shards} shards; they are kept, and the same command goes on")
+        raise typer.Exit(EXIT_INTERRUPTED) from None
 
 
 def result_fields(result: PlanResult) -> dict[str, Any]:

@@ -55,10 +55,23 @@ def train(
 def generate(
     data: Annotated[Path, typer.Option(help="Folder of the mazes.")] = DATA,
     levels: Annotated[str, typer.Option(help="Levels, e.g. 21-49 or 21,35.")] = "21-49",
-    workers: Annotated[int, typer.Option(help="Processes.")] = 2,
+    workers: Annotated[int, typer.Option(help="Processes, without --ray.")] = 2,
+    ray: Annotated[
+        str | None,
+        typer.Option(
+            metavar="ADDRESS",
+            help="Share the work with Ray: local (this machine), auto (the cluster that this machine is part of), or "
+            "HOST:PORT. Every machine needs this package; the files are written here and are the same.",
+        ),
+    ] = None,
 ) -> None:
     """Make the mazes of all splits that are missing (8000 a level: 6000 train, 1000 evaluation, 1000 test)."""
-    made = MazeStore(data).generate(_levels(levels), workers=workers)
+    from lrrt.sweep import ClusterError
+
+    try:
+        made = MazeStore(data).generate(_levels(levels), workers=workers, ray=ray)
+    except ClusterError as error:
+        raise typer.BadParameter(str(error)) from error
     typer.echo(f"{data}: {made} new files")
 
 

@@ -7,8 +7,10 @@ import hashlib
 import json
 import os
 import zipfile
+from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from rich.progress import Progress
@@ -43,13 +45,37 @@ def unpack(bits: np.ndarray, level: int) -> np.ndarray:
     return np.unpackbits(bits, count=level * level).reshape(level, level).astype(bool)
 
 
-def generate_level(split: str, level: int, count: int, seed: int, braided_share: float) -> np.ndarray:
+class LevelJob(NamedTuple):
+    """The mazes of one file."""
+
+    split: str
+    level: int  #: blocks a side
+    count: int
+    seed: int
+    braided_share: float
+
+
+def generate_level(job: LevelJob) -> np.ndarray:
     """``count`` packed mazes; maze i depends on (seed, split, level, i) alone, so that splits never share a seed."""
     parts = []
-    for i in range(count):
-        rng = np.random.default_rng([seed, SPLITS.index(split), level, i])
-        parts.append(np.packbits(mazes.random_maze(rng, level, braided_share)))
+    for i in range(job.count):
+        rng = np.random.default_rng([job.seed, SPLITS.index(job.split), job.level, i])
+        parts.append(np.packbits(mazes.random_maze(rng, job.level, job.braided_share)))
     return np.stack(parts)
+
+
+def _made_by_processes(jobs: list[LevelJob], workers: int) -> Iterator[tuple[LevelJob, np.ndarray]]:
+    """Files as they are finished."""
+    with ProcessPoolExecutor(max_workers=workers) as pool:
+        pending = {pool.submit(generate_level, job): job for job in jobs}
+        for future in as_completed(pending):
+            yield pending.pop(future), future.result()
+
+
+def _made_on_ray(jobs: list[LevelJob], address: str) -> Iterator[tuple[LevelJob, np.ndarray]]:
+    from lrrt.sweep import map_on_ray
+
+    return map_on_ray(generate_level, jobs, address)
 
 
 def _write(path: Path, **arrays) -> None:
@@ -113,30 +139,38 @@ class MazeStore:
             self._cache[key] = bits
         return self._cache[key]
 
-    def generate_file(self, split: str, level: int) -> None:
-        """Makes one file."""
-        bits = generate_level(split, level, self.counts[split], self.seed, self.braided_share)
-        self.path(split, level).parent.mkdir(parents=True, exist_ok=True)
-        _write(self.path(split, level), mazes=bits, settings=self._settings(split))
+    def generate(
+        self, levels: list[int], splits: tuple[str, ...] = SPLITS, workers: int = 2, ray: str | None = None
+    ) -> int:
+        """Makes every file that is missing, with a progress bar; returns how many it made.
 
-    def generate(self, levels: list[int], splits: tuple[str, ...] = SPLITS, workers: int = 2) -> int:
-        """Makes every file that is missing, with a progress bar; returns how many it made."""
+        Args:
+            levels: blocks a side.
+            splits: of ``SPLITS``.
+            workers: processes on this machine.
+            ray: address of a Ray cluster that makes the mazes instead, ``local`` for this machine; see
+                ``lrrt.sweep.map_on_ray``. This process writes the files, the same byte by byte.
+        """
         for split in splits:
             check_split(split)
         for level in levels:
             mazes.check_level(level)
-        jobs = [(s, m) for s in splits for m in sorted(set(levels)) if self._load(s, m) is None]
-        if not jobs:
+        missing = [(s, m) for s in splits for m in sorted(set(levels)) if self._load(s, m) is None]
+        if not missing:
             return 0
-        total = sum(self.counts[split] for split, _ in jobs)
-        with Progress() as progress, ProcessPoolExecutor(max_workers=workers) as pool:
-            task = progress.add_task("mazes", total=total)
-            pending = {pool.submit(self.generate_file, *job): job for job in jobs}
-            for future in as_completed(pending):
-                future.result()
-                progress.advance(task, self.counts[pending[future][0]])
+        jobs = [LevelJob(s, m, self.counts[s], self.seed, self.braided_share) for s, m in missing]
+        with Progress() as progress:
+            task = progress.add_task("mazes", total=sum(job.count for job in jobs))
+            for job, bits in _made_by_processes(jobs, workers) if ray is None else _made_on_ray(jobs, ray):
+                self._save(job, bits)
+                progress.advance(task, job.count)
         self.write_manifest()
         return len(jobs)
+
+    def _save(self, job: LevelJob, bits: np.ndarray) -> None:
+        path = self.path(job.split, job.level)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        _write(path, mazes=bits, settings=self._settings(job.split))
 
     def write_manifest(self) -> None:
         """Enters every file of the store into ``manifest.json``: sha256, bytes, mazes, and the settings of all."""

@@ -64,6 +64,12 @@ def test_generate_says_what_it_made(tmp_path):
     assert "0 new files" in call("generate", "--data", tmp_path, "--levels", "5").output
 
 
+def test_generate_without_ray_says_what_to_install(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "ray", None)
+    result = call("generate", "--data", tmp_path, "--levels", "5", "--ray", "auto")
+    assert result.exit_code == 2 and 'pip install "lrrt[sweep]"' in words(result.output)
+
+
 def test_train_hands_on_every_option(store, tmp_path, monkeypatch):
     seen = []
     monkeypatch.setattr(train_file, "train", lambda arguments: seen.append(arguments) or Path("runs/tiny"))

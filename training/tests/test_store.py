@@ -113,3 +113,14 @@ def test_manifest_tells_every_file_by_its_hash_and_is_the_same_for_the_same_maze
     assert manifests[0] == manifests[1]
     assert sorted(manifests[0]["files"]) == ["test/5.npz", "test/7.npz", "train/5.npz", "train/7.npz"]
     assert manifests[0]["files"]["train/5.npz"]["mazes"] == 3
+
+
+def test_a_cluster_makes_the_same_files_byte_by_byte(tmp_path):
+    ray = pytest.importorskip("ray", reason='Ray is not installed: pip install "lrrt[sweep]"')
+    here, there = small(tmp_path / "here"), small(tmp_path / "there")
+    assert here.generate([7, 9], workers=1) == there.generate([7, 9], ray="local") == 6
+    assert not ray.is_initialized(), "what was started is shut down"
+    names = sorted(str(path.relative_to(here.folder)) for path in here.folder.rglob("*") if path.is_file())
+    assert len(names) == 7
+    for name in names:
+        assert (here.folder / name).read_bytes() == (there.folder / name).read_bytes(), name

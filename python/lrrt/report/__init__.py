@@ -7,6 +7,7 @@
 
 from lrrt.report.fields import ResultError
 from lrrt.report.results import PlanResults, PredictResults, load
+from lrrt.report.terminal import terminal_report
 from lrrt.report.writing import write_report
 
-__all__ = ["PlanResults", "PredictResults", "ResultError", "load", "write_report"]
+__all__ = ["PlanResults", "PredictResults", "ResultError", "load", "terminal_report", "write_report"]

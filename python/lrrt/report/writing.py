@@ -43,13 +43,13 @@ def write_report(
     if folder is not None and folder.exists() and not folder.is_dir():
         raise ResultError(f"{folder}: is a file; expected a folder for the figures")
     contents = chapters([load(path) for path in sources])
-    written = [_write(page, html.page(contents))]
+    written = [write_text(page, html.page(contents))]
     if folder is not None:
         pictures = [picture for chapter in contents for section in chapter.sections for picture in section.pictures]
-        written += [_write(_made(folder) / f"{picture.name}.svg", svg_file(picture)) for picture in pictures]
+        written += [write_text(_made(folder) / f"{picture.name}.svg", svg_file(picture)) for picture in pictures]
     if text is not None:
         link = None if folder is None else Path(os.path.relpath(folder, text.parent)).as_posix()
-        written.append(_write(text, markdown.text_of(contents, link)))
+        written.append(write_text(text, markdown.text_of(contents, link)))
     return written
 
 
@@ -76,7 +76,7 @@ def _made(folder: Path) -> Path:
     return folder
 
 
-def _write(path: Path, text: str) -> Path:
+def write_text(path: Path, text: str) -> Path:
     """Writes under another name first, so that nobody sees half a file."""
     temporary = path.with_name(f".{path.name}.part")
     try:
