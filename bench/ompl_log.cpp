@@ -18,7 +18,7 @@ constexpr std::array<PlanStatus, 9> statuses = {
     PlanStatus::time_limit,     PlanStatus::iteration_limit, PlanStatus::cancelled};
 
 /// Properties of a run, in the order in which run_line() writes them. Times are seconds there.
-constexpr std::array<const char*, 12> run_properties = {"solved BOOLEAN",
+constexpr std::array<const char*, 14> run_properties = {"solved BOOLEAN",
                                                         "status ENUM",
                                                         "time REAL",
                                                         "time to first solution REAL",
@@ -28,6 +28,8 @@ constexpr std::array<const char*, 12> run_properties = {"solved BOOLEAN",
                                                         "best cost REAL",
                                                         "first cost REAL",
                                                         "optimal cost REAL",
+                                                        "motion checks INTEGER",
+                                                        "clearance REAL",
                                                         "memory REAL",
                                                         "seed INTEGER"};
 
@@ -75,7 +77,8 @@ std::string run_line(const Json& row) {
   text << row.at("solved").get<bool>() << "; " << status_number(row) << "; " << number(times, "total", 1e3) << "; "
        << number(row, "first_ms", 1e3) << "; " << prediction / 1e3 << "; " << row.at("iterations") << "; "
        << row.at("nodes") << "; " << number(row, "length") << "; " << number(row, "first_length") << "; "
-       << number(row, "optimum") << "; ; " << row.at("seed") << "; ";
+       << number(row, "optimum") << "; " << number(row, "motion_checks") << "; "
+       << number(row.value("clearance", Json::object()), "mean") << "; ; " << row.at("seed") << "; ";
   return text.str();
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "campaign.hpp"
+#include "clearance.hpp"
 #include "grid_search.hpp"
 #include "lrrt/planner.hpp"
 #include "lrrt/predict/onnx_predictor.hpp"
@@ -63,7 +64,7 @@ Json times_json(const PlanResult& result) {
           {"region", t.region},   {"plan", t.plan},     {"total", t.total}};
 }
 
-void add_path(Json& json, const PlanResult& result, double optimum) {
+void add_path(Json& json, const PlanResult& result, const PlanJob& job, double optimum) {
   const PlanTimings& t = result.timings;
   const double before = t.prepare + t.encode + t.infer + t.region;
   const CostStep& first = result.cost_history.front();
@@ -73,6 +74,8 @@ void add_path(Json& json, const PlanResult& result, double optimum) {
   json["first_length"] = first.cost;
   json["length"] = result.cost;
   json["optimum"] = number(optimum);
+  const Clearance clearance = clearance_of(planning_map(*job.problem->map, job.suite), result.path);
+  json["clearance"] = {{"least", clearance.least}, {"mean", clearance.mean}};
   for (const int percent : within_percents) {
     const double target = optimum * (1.0 + percent / 100.0);
     json["within_ms"][std::to_string(percent)] = time_within(result, target, before);
@@ -92,13 +95,14 @@ Json row_json(const PlanResult& result, const PlanJob& job, double optimum) {
                {"solved", result.solved()},
                {"iterations", result.iterations},
                {"nodes", result.nodes},
+               {"motion_checks", result.motion_checks},
                {"ended_by_clock", by_clock},
                {"times_ms", times_json(result)},
                {"draws", {{"guided", result.draws.guided}, {"uniform", result.draws.uniform}}}};
   if (result.region) {
     json["region"] = {{"area", result.region->area()}, {"bridge", result.region->bridge_area()}};
   }
-  if (result.solved()) add_path(json, result, optimum);
+  if (result.solved()) add_path(json, result, job, optimum);
   return json;
 }
 

@@ -25,6 +25,8 @@ PlanRecord record_of(const Json& row) {
   record.prediction = number(times, "encode") + number(times, "infer") + number(times, "region");
   record.iterations = number(row, "iterations");
   record.nodes = number(row, "nodes");
+  record.checks = number(row, "motion_checks");
+  record.clearance = number(row.value("clearance", Json::object()), "mean");
   record.length = number(row, "length") / number(row, "optimum");
   const Json within = row.value("within_ms", Json::object());
   for (std::size_t i = 0; i < within_percents.size(); ++i) {

@@ -19,6 +19,8 @@ struct PlanRecord {
   double prediction = 0.0;                              ///< the prediction's share: encode, infer, region
   double iterations = 0.0;                              ///< of the whole run
   double nodes = 0.0;                                   ///< of the whole run
+  double checks = 0.0;                                  ///< motions checked in the whole run
+  double clearance = 0.0;                               ///< mean along the last path, map units
   double length = 0.0;                                  ///< of the last path, divided by the optimum
   std::array<double, within_percents.size()> within{};  ///< milliseconds to come so near to the optimum
 };

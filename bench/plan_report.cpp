@@ -50,11 +50,13 @@ std::string medians_table(const std::vector<const RowRecords*>& rows) {
 }
 
 std::string means_table(const std::vector<const RowRecords*>& rows) {
-  Table table({"mean ± deviation", "first path, ms", "search", "iterations", "nodes", "length"});
+  Table table(
+      {"mean ± deviation", "first path, ms", "search", "iterations", "nodes", "motion checks", "length", "clearance"});
   for (const RowRecords* row : rows) {
     const auto cell = [&](Field field) { return mean_and_deviation(values_of(row->runs, field)); };
     table.add({row->planner, cell(&PlanRecord::first), cell(&PlanRecord::search), cell(&PlanRecord::iterations),
-               cell(&PlanRecord::nodes), cell(&PlanRecord::length)});
+               cell(&PlanRecord::nodes), cell(&PlanRecord::checks), cell(&PlanRecord::length),
+               cell(&PlanRecord::clearance)});
   }
   return table.text();
 }
@@ -123,7 +125,8 @@ std::string plan_report(const Json& document) {
 std::string plan_csv(const Json& document) {
   std::ostringstream text;
   text << "group,map,query,planner,seed,status,iterations,nodes,first_ms,search_ms,first_iteration,first_length,length,"
-          "optimum,prepare_ms,encode_ms,infer_ms,region_ms,plan_ms,total_ms";
+          "optimum,motion_checks,least_clearance,mean_clearance,prepare_ms,encode_ms,infer_ms,region_ms,plan_ms,total_"
+          "ms";
   for (const int percents : within_percents) text << ",within_" << percents << "_ms";
   text << '\n';
   const auto add = [&](const Json& row, const char* key) {
@@ -135,10 +138,11 @@ std::string plan_csv(const Json& document) {
     text << quoted(row.at("group").get<std::string>());
     for (const char* key : {"map", "query", "planner"}) text << ',' << quoted(row.at(key).get<std::string>());
     text << ',' << row.at("seed") << ',' << row.at("status").get<std::string>();
-    for (const char* key :
-         {"iterations", "nodes", "first_ms", "search_ms", "first_iteration", "first_length", "length", "optimum"}) {
+    for (const char* key : {"iterations", "nodes", "first_ms", "search_ms", "first_iteration", "first_length", "length",
+                            "optimum", "motion_checks"}) {
       add(row, key);
     }
+    for (const char* key : {"least", "mean"}) add(row.value("clearance", Json::object()), key);
     for (const char* key : {"prepare", "encode", "infer", "region", "plan", "total"}) add(row.at("times_ms"), key);
     const Json within = row.value("within_ms", Json::object());
     for (const int percents : within_percents) add(within, std::to_string(percents).c_str());

@@ -130,6 +130,7 @@ struct PlanResult {
   double cost = std::numeric_limits<double>::infinity();  ///< length of the path, map units
   std::size_t iterations = 0;                             ///< iterations of the planner
   std::size_t nodes = 0;                                  ///< nodes in its tree
+  std::size_t motion_checks = 0;                          ///< motions that were checked for collisions
   DrawCounts draws{};                                     ///< samples drawn from the region and uniformly
   std::vector<CostStep> cost_history;                     ///< strictly falling costs (RRT*)
   std::vector<TreeEdge> tree;                             ///< only with PlanOptions::keep_tree

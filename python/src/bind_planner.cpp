@@ -117,6 +117,7 @@ void bind_result(py::module_& module) {
       .def_readonly("cost", &PlanResult::cost, "Length of the path, map units; inf unless solved.")
       .def_readonly("iterations", &PlanResult::iterations, "Iterations of the planner.")
       .def_readonly("nodes", &PlanResult::nodes, "Nodes in the planner's tree.")
+      .def_readonly("motion_checks", &PlanResult::motion_checks, "Motions that were checked for collisions.")
       .def_property_readonly(
           "draws", [](const PlanResult& r) { return draws_dict(r.draws); },
           "Samples drawn: {'guided': from the region, 'uniform': from the whole map}.")

@@ -112,6 +112,8 @@ void MapSearch::run(PlanResult& result) {
   result.timings.plan = limits_->elapsed_ms();
   result.iterations = limits_->iterations();
   result.nodes = planner_.nodes();
+  result.motion_checks =
+      si_->getMotionValidator()->getValidMotionCount() + si_->getMotionValidator()->getInvalidMotionCount();
   result.draws = source_->counts();
   if (problem_->hasExactSolution()) {
     read_path(result);

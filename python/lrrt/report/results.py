@@ -18,7 +18,7 @@ from lrrt.report.fields import Fields, read_object
 
 FORMAT = "lrrt_bench 1"
 WITHIN_PERCENTS = (10, 5, 2, 1)  #: how near to the optimum; the benchmark program's steps
-Field = Literal["first", "search", "prediction", "iterations", "nodes", "length"]
+Field = Literal["first", "search", "prediction", "iterations", "nodes", "checks", "length", "clearance"]
 
 
 @dataclass(frozen=True)
@@ -33,6 +33,8 @@ class Run:
     solved: bool
     iterations: float  #: of the whole run
     nodes: float  #: of the whole run
+    checks: float  #: motions checked in the whole run
+    clearance: float  #: mean along the last path, map units
     prediction: float  #: encode, infer and region
     total: float  #: of the whole call
     first: float  #: from the call to the first path
@@ -219,6 +221,8 @@ def _run(row: Fields) -> Run:
         solved=solved,
         iterations=float(row.whole("iterations")),
         nodes=float(row.whole("nodes")),
+        checks=row.number_or_nan("motion_checks"),
+        clearance=row.child("clearance").number_or_nan("mean") if "clearance" in row else math.nan,
         prediction=sum(times.number(stage) for stage in ("encode", "infer", "region")),
         total=times.number("total"),
         first=first,

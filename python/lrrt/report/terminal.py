@@ -12,7 +12,7 @@ from lrrt.report.results import Head, PlanResults, PredictResults, load
 from lrrt.report.tables import Table, gains_table, means_table, medians_table, predict_table, within_table
 
 _MEDIANS = ("solved (95 %)", "first path, ms", "prediction", "search", "iterations", "nodes", "length")
-_MEANS = ("first path, ms", "search", "iterations", "nodes", "length")
+_MEANS = ("first path, ms", "search", "iterations", "nodes", "motion checks", "length", "clearance")
 _GAINS = ("pairs", "first path", "search", "iterations", "nodes", "length")
 _PREDICTIONS = ("model", "map", "threads", "spinning", "encode", "infer", "region", "all", "per second")
 
