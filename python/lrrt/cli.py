@@ -199,7 +199,9 @@ def info_command(
 
 @app.command("report")
 def report_command(
-    results: Annotated[list[Path], typer.Argument(metavar="RESULTS...", help="Files that lrrt_bench --json wrote.")],
+    results: Annotated[
+        list[Path], typer.Argument(metavar="RESULTS...", help="Files that lrrt_bench --json wrote, gzipped or not.")
+    ],
     output: Annotated[Path, typer.Option(metavar="FILE", help="HTML file to write, complete in itself.")] = Path(
         "report.html"
     ),

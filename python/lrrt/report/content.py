@@ -42,19 +42,17 @@ def chapters(files: Sequence[PlanResults | PredictResults]) -> list[Chapter]:
     names = [name for results in plans for name in results.planners()]
     all_looks = looks(names, plans[0].baseline) if plans else {}
     made = [_chapter(results, all_looks) for results in files]
-    prefixes = [f"{slug(results.head.path.stem)}-" if len(files) > 1 else "" for results in files]
+    prefixes = [f"{slug(results.head.name)}-" if len(files) > 1 else "" for results in files]
     taken: set[str] = set()
     return [_renamed(chapter, prefix, taken) for chapter, prefix in zip(made, prefixes)]
 
 
 def _chapter(results: PlanResults | PredictResults, all_looks: dict[str, Look]) -> Chapter:
-    command = results.head.command or f"lrrt_bench --replay {shlex.quote(results.head.path.name)}"
+    command = results.head.command or replay_command(results.head.path.name)
+    facts = facts_of(results)
     if isinstance(results, PredictResults):
         pictures, tables = predict_pictures(results), [predict_table(results)]
-        runs = f"{counted(len(results.rows), 'setting', 'settings')}, {len(results.rows[0].times)} predictions each"
-        facts = [*_facts(results.head), ("Measured", runs)]
         return Chapter(results.head.title, facts, command, None, [Section("Predictions", pictures, tables)])
-    facts = [*_facts(results.head), ("Measured", _extent(results)), ("Baseline", results.baseline)]
     overview = overview_pictures(results, all_looks)
     sections = [
         Section(group, group_pictures(results, group, all_looks), group_tables(results, group))
@@ -65,6 +63,21 @@ def _chapter(results: PlanResults | PredictResults, all_looks: dict[str, Look]) 
     else:
         sections.insert(0, Section("All groups", overview, []))
     return Chapter(results.head.title, facts, command, settings_table(results), sections)
+
+
+def facts_of(results: PlanResults | PredictResults) -> list[tuple[str, str]]:
+    """Where, with what, when and how much was measured: names and values."""
+    facts = _facts(results.head)
+    if isinstance(results, PlanResults):
+        return [*facts, ("Measured", _extent(results)), ("Baseline", results.baseline)]
+    runs = f"{counted(len(results.rows), 'setting', 'settings')}, {len(results.rows[0].times)} predictions each"
+    return [*facts, ("Measured", runs)]
+
+
+def replay_command(file: str) -> str:
+    """The command that runs a result again; the program reads what is gzipped through a pipe."""
+    name = shlex.quote(file)
+    return f"zcat {name} | lrrt_bench --replay /dev/stdin" if file.endswith(".gz") else f"lrrt_bench --replay {name}"
 
 
 def _facts(head: Head) -> list[tuple[str, str]]:
@@ -80,9 +93,12 @@ def _facts(head: Head) -> list[tuple[str, str]]:
 
 def _extent(results: PlanResults) -> str:
     queries = {(run.group, run.map, run.query) for run in results.runs}
+    limits = {setting.time_limit for setting in results.settings.values()}
+    each = f", at most {limits.pop():g} s each" if len(limits) == 1 else ""
+    planners = counted(len(results.planners()), "planner", "planners")
     return (
-        f"{counted(len(results.runs), 'run', 'runs')}: {counted(len(results.planners()), 'planner', 'planners')} on "
-        f"{counted(len(queries), 'query', 'queries')} in {counted(len(results.groups()), 'group', 'groups')} of maps"
+        f"{counted(len(results.runs), 'run', 'runs')}: {planners} on {counted(len(queries), 'query', 'queries')} in "
+        f"{counted(len(results.groups()), 'group', 'groups')} of maps{each}"
     )
 
 

@@ -17,7 +17,8 @@ from lrrt.report.style import Look, Picture, new_figure, panels, plain_axis, sho
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-_INSTANTS = 300  # at which cost is read off
+_INSTANTS = 240  # at which cost is read off
+_LEAST_CHANGE = 2e-3  # of a figure's height; a step that is smaller would not be seen
 _GROWTH: tuple[tuple[Field, str], ...] = (
     ("prediction", "prediction, ms"),
     ("search", "search, ms"),
@@ -37,23 +38,12 @@ def cost_picture(results: PlanResults, group: str, looks: dict[str, Look]) -> Pi
     names = panels(list(rows))
     figure = new_figure(8.6, 3.5 * len(names))
     grid = figure.subplots(len(names), 1, squeeze=False, sharex=True, sharey=True)[:, 0]
-    top = 1.0
+    curves = {name: np.stack(costs_over_time(row, times)) for name, row in rows.items()}
+    top = max([1.0, *(cost for curve in curves.values() for cost in curve[1:][np.isfinite(curve[1:])])])
     for axes, part in zip(grid, names):
         for name in part:
-            lower, median, upper = costs_over_time(rows[name], times)
-            # Where a quarter of the runs have no path yet, the band is open upwards.
-            axes.fill_between(
-                times, lower, np.minimum(upper, 1e3), step="post", color=looks[name].colour, alpha=0.13, lw=0
-            )
-            axes.plot(
-                times,
-                np.where(np.isfinite(median), median, np.nan),
-                drawstyle="steps-post",
-                color=looks[name].colour,
-                linestyle=looks[name].line,
-                label=shown(name),
-            )
-            top = max([top, *upper[np.isfinite(upper)], *median[np.isfinite(median)]])
+            steps = visible_steps(curves[name], _LEAST_CHANGE * (top - 1.0))
+            _cost_line(axes, times[steps], curves[name][:, steps], shown(name), looks[name])
         axes.set(xscale="log", ylabel="length / optimum")
         axes.grid()
         side_legend(axes)
@@ -68,6 +58,27 @@ def cost_picture(results: PlanResults, group: str, looks: dict[str, Look]) -> Pi
         "counts as endlessly long, so a line begins where half of the runs have a path.",
         figure,
     )
+
+
+def _cost_line(
+    axes: Axes, times: npt.NDArray[np.float64], curve: npt.NDArray[np.float64], label: str, look: Look
+) -> None:
+    lower, median, upper = curve
+    # Where a quarter of the runs have no path yet, the band is open upwards.
+    axes.fill_between(times, lower, np.minimum(upper, 1e3), step="post", color=look.colour, alpha=0.13, lw=0)
+    median = np.where(np.isfinite(median), median, np.nan)
+    axes.plot(times, median, drawstyle="steps-post", color=look.colour, linestyle=look.line, label=label)
+
+
+def visible_steps(curves: npt.NDArray[np.float64], least: float) -> list[int]:
+    """The columns at which any row differs by so much from the column kept before; the first and the last, too."""
+    kept = [0]
+    for column in range(1, curves.shape[1] - 1):
+        before, now = curves[:, kept[-1]], curves[:, column]
+        with np.errstate(invalid="ignore"):  # of endless costs
+            if ((now != before) & ~(np.abs(now - before) < least)).any():
+                kept.append(column)
+    return [*kept, curves.shape[1] - 1]
 
 
 def _span(runs: list[Run]) -> tuple[float, float]:

@@ -3,14 +3,17 @@
 
 from __future__ import annotations
 
+import gzip
 import json
 import math
+import zlib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, TypeGuard
 
 from lrrt._core import Error
 
+_GZIP = b"\x1f\x8b"  # how gzipped files begin
 _LARGEST_WHOLE = 1 << 64  # beyond any count or seed; Python would read more digits than a double holds
 
 
@@ -123,7 +126,12 @@ def is_number(value: object) -> TypeGuard[float]:
 
 
 def read_object(path: Path, writer: str = "lrrt_bench --json") -> Fields:
-    """The JSON object that a file holds.
+    """The JSON object that a file holds, as fields; arguments and errors as ``read_document``."""
+    return Fields(read_document(path, writer), str(path))
+
+
+def read_document(path: Path, writer: str = "lrrt_bench --json") -> dict[str, Any]:
+    """The JSON object that a file holds, gzipped or not.
 
     Args:
         path: the file.
@@ -133,12 +141,7 @@ def read_object(path: Path, writer: str = "lrrt_bench --json") -> Fields:
         ResultError: there is no such file, or it holds something else.
     """
     expected = f"expected a file that {writer} wrote"
-    try:
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        raise ResultError(f"{path}: cannot be read ({error.strerror or error}); {expected}") from error
-    except UnicodeDecodeError as error:
-        raise ResultError(f"{path}: is no text ({error.reason} at byte {error.start}); {expected}") from error
+    text = _text_of(path, expected)
     try:
         values = json.loads(text)
     except (ValueError, RecursionError) as error:
@@ -149,4 +152,18 @@ def read_object(path: Path, writer: str = "lrrt_bench --json") -> Fields:
         raise ResultError(f"{path}: is not JSON ({error}); {expected}") from error
     if not isinstance(values, dict):
         raise ResultError(f"{path}: holds no JSON object; {expected}")
-    return Fields(values, str(path))
+    return values
+
+
+def _text_of(path: Path, expected: str) -> str:
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise ResultError(f"{path}: cannot be read ({error.strerror or error}); {expected}") from error
+    try:
+        # By its first bytes: a file that was renamed is read, too.
+        return (gzip.decompress(content) if content.startswith(_GZIP) else content).decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise ResultError(f"{path}: is no text ({error.reason} at byte {error.start}); {expected}") from error
+    except (EOFError, OSError, zlib.error) as error:
+        raise ResultError(f"{path}: is gzipped, but broken ({error}); {expected}") from error

@@ -7,6 +7,7 @@ import re
 from urllib.parse import quote
 
 from lrrt.report.content import Chapter, Section
+from lrrt.report.style import Picture
 from lrrt.report.tables import Table
 
 
@@ -35,13 +36,26 @@ def table_lines(table: Table) -> str:
     """A table with its first column left, the others right."""
     marks = ["---", *["---:"] * (len(table.columns) - 1)]
     lines = [[escaped(column) for column in table.columns], marks]
-    lines += [[escaped(cell) for cell in row] for row in table.rows]
+    for i, row in enumerate(table.rows):
+        lines.append([f"**{escaped(cell)}**" if (i, j) in table.best else escaped(cell) for j, cell in enumerate(row)])
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def picture_lines(picture: Picture, link: str) -> str:
+    """A link to a picture, and its caption."""
+    title = escaped(picture.title)
+    return f"![{title}]({quote(link)})\n\n*{title}.* {escaped(picture.caption)}"
+
+
+def code(text: str) -> str:
+    """A text set as code."""
+    fence = "``" if "`" in text else "`"
+    return f"{fence}{text}{fence}"
 
 
 def _chapter(chapter: Chapter, figures: str | None, level: int) -> list[str]:
     facts = [f"- {name}: {escaped(value)}" for name, value in chapter.facts]
-    parts = ["\n".join([*facts, f"- Run it again: {_code(chapter.command)}"])]
+    parts = ["\n".join([*facts, f"- Run it again: {code(chapter.command)}"])]
     for section in chapter.sections:
         parts += _section(section, figures, level)
     if chapter.settings is not None:
@@ -52,15 +66,8 @@ def _chapter(chapter: Chapter, figures: str | None, level: int) -> list[str]:
 def _section(section: Section, figures: str | None, level: int) -> list[str]:
     parts = []
     if figures is not None:
-        for picture in section.pictures:
-            link = f"![{escaped(picture.title)}]({quote(f'{figures}/{picture.name}.svg')})"
-            parts += [link, f"*{escaped(picture.title)}.* {escaped(picture.caption)}"]
+        parts += [picture_lines(picture, f"{figures}/{picture.name}.svg") for picture in section.pictures]
     for table in section.tables:
         parts += [f"**{escaped(table.title)}**", table_lines(table)]
         parts += [escaped(table.note)] if table.note else []
     return [f"{'#' * level} {escaped(section.title)}", *parts] if parts else []
-
-
-def _code(text: str) -> str:
-    fence = "``" if "`" in text else "`"
-    return f"{fence}{text}{fence}"

@@ -75,6 +75,7 @@ class Maze:
     level: int  #: blocks a side
     pixels: int  #: side of the map
     kind: str  #: everything else; sizes are only compared between mazes of one kind
+    braid: float  #: share of the dead ends that were opened; above 0 there are loops
 
 
 @dataclass(frozen=True)
@@ -87,6 +88,11 @@ class Head:
     machine: dict[str, str]
     started: str  #: UTC; empty where the file does not say
     command: str = ""  #: makes the file again; empty where lrrt_bench wrote it and can replay it
+
+    @property
+    def name(self) -> str:
+        """The file's name without its endings: ``paper`` of ``paper.json.gz``."""
+        return stem(self.path)
 
 
 @dataclass(frozen=True)
@@ -159,6 +165,11 @@ def load(path: str | os.PathLike[str]) -> PlanResults | PredictResults:
     return PlanResults(head, suite.text("baseline"), settings, _mazes(suite), [_run(row) for row in rows])
 
 
+def stem(path: Path) -> str:
+    """A result file's name without ``.json`` or ``.json.gz``."""
+    return path.with_suffix("").stem if path.suffix == ".gz" else path.stem
+
+
 def values_of(runs: list[Run], field: Field) -> list[float]:
     """One field of the solved runs that have it."""
     values = [float(getattr(run, field)) for run in runs if run.solved]
@@ -178,7 +189,7 @@ def _head(document: Fields, suite: Fields, path: Path) -> Head:
     about = {key: machine.text(key) for key in ("processor", "system") if key in machine}
     if "cores" in machine:
         about["cores"] = str(machine.whole("cores"))
-    title = suite.text("title", "") or path.stem
+    title = suite.text("title", "") or stem(path)
     named = {key: version for key, version in named.items() if version}
     return Head(path, title, named, about, document.text("started", ""), document.text("command", ""))
 
@@ -202,7 +213,8 @@ def _mazes(suite: Fields) -> dict[str, Maze]:
         if source.text("kind") == "maze":
             others = {"algorithm", "braid", "queries"} & set(source)
             kind = json.dumps({key: source.raw(key) for key in sorted(others)}, sort_keys=True)
-            mazes[source.text("name")] = Maze(source.whole("level"), source.whole("pixels"), kind)
+            braid = source.number("braid") if "braid" in source else 0.0
+            mazes[source.text("name")] = Maze(source.whole("level"), source.whole("pixels"), kind, braid)
     return mazes
 
 

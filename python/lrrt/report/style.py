@@ -167,7 +167,7 @@ def svg_file(picture: Picture) -> str:
     text = io.StringIO()
     with matplotlib.rc_context({"svg.hashsalt": picture.name}):  # same figure, same file
         picture.figure.savefig(text, format="svg", facecolor="white", metadata={"Date": None})
-    return text.getvalue()
+    return _without_far_digits(text.getvalue())
 
 
 @styled
@@ -178,10 +178,15 @@ def svg_element(picture: Picture, prefix: str) -> str:
     text = io.StringIO()
     with matplotlib.rc_context({"svg.hashsalt": prefix}):
         picture.figure.savefig(text, format="svg", facecolor="none", metadata={"Date": None})
-    svg = text.getvalue()
+    svg = _without_far_digits(text.getvalue())
     svg = svg[svg.index("<svg") :]
     svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
     svg = re.sub(r' xmlns(:\w+)?="[^"]*"', "", svg)
     svg = re.sub(r'\bid="', f'id="{prefix}-', svg)
     svg = re.sub(r'(url\(#|href="#)', rf"\g<1>{prefix}-", svg)
     return svg.replace(INK, "currentColor").strip()
+
+
+def _without_far_digits(svg: str) -> str:
+    """Lines to a hundredth of a point: a third of the file is digits that no screen shows."""
+    return re.sub(r'\bd="[^"]*"', lambda path: re.sub(r"(\.\d\d)\d+", r"\1", path[0]), svg)

@@ -41,6 +41,7 @@ class Table:
     columns: tuple[str, ...]
     rows: list[tuple[str, ...]]
     note: str = ""
+    best: frozenset[tuple[int, int]] = frozenset()  #: row and column of cells to set in bold
 
 
 def success(runs: Sequence[Run]) -> str:
@@ -74,14 +75,20 @@ def means_table(results: PlanResults, group: str) -> Table:
     return Table("Mean ± standard deviation", ("planner", *(title for _, title in _MEANS)), rows)
 
 
+def times_within(runs: Sequence[Run], percent: int) -> list[float]:
+    """When each run came so near to the optimum, of those that did; one of WITHIN_PERCENTS."""
+    times = [run.within[WITHIN_PERCENTS.index(percent)] for run in runs]
+    return [time for time in times if not math.isnan(time)]
+
+
 def within_table(results: PlanResults, group: str) -> Table | None:
     """Median time to come near the optimum, and how many runs did; None when no run of any planner did."""
     rows = []
     any_run = False
     for name, runs in results.rows(group).items():
         cells = [name]
-        for i in range(len(WITHIN_PERCENTS)):
-            times = [run.within[i] for run in runs if not math.isnan(run.within[i])]
+        for percent in WITHIN_PERCENTS:
+            times = times_within(runs, percent)
             any_run = any_run or bool(times)
             cells.append(f"{short_number(quantile(times, 0.5))} ({len(times)}/{len(runs)})")
         rows.append(tuple(cells))
@@ -93,6 +100,11 @@ def within_table(results: PlanResults, group: str) -> Table | None:
         rows,
         "Median over the runs that came so near; in brackets how many of all runs did.",
     )
+
+
+def gains_of(pairs: Sequence[tuple[Run, Run]], field: Field) -> list[float]:
+    """The first run's number divided by the second's, of each pair where that is a number."""
+    return ratios((getattr(base, field), getattr(run, field)) for base, run in pairs)
 
 
 def gains_table(results: PlanResults, group: str) -> Table | None:
@@ -110,7 +122,7 @@ def gains_table(results: PlanResults, group: str) -> Table | None:
         if name == results.baseline:
             continue
         pairs = pairs_of(runs[results.baseline], others)
-        gains = [ratios((getattr(a, field), getattr(b, field)) for a, b in pairs) for field, _ in fields]
+        gains = [gains_of(pairs, field) for field, _ in fields]
         rows.append((name, str(len(gains[0])), *(median_and_quartiles(gain, "×") for gain in gains)))
     return Table(
         f"Gain over {results.baseline}",

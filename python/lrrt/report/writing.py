@@ -43,13 +43,13 @@ def write_report(
     if folder is not None and folder.exists() and not folder.is_dir():
         raise ResultError(f"{folder}: is a file; expected a folder for the figures")
     contents = chapters([load(path) for path in sources])
-    written = [write_text(page, html.page(contents))]
+    written = [write_file(page, html.page(contents))]
     if folder is not None:
         pictures = [picture for chapter in contents for section in chapter.sections for picture in section.pictures]
-        written += [write_text(_made(folder) / f"{picture.name}.svg", svg_file(picture)) for picture in pictures]
+        written += [write_file(made_folder(folder) / f"{picture.name}.svg", svg_file(picture)) for picture in pictures]
     if text is not None:
         link = None if folder is None else Path(os.path.relpath(folder, text.parent)).as_posix()
-        written.append(write_text(text, markdown.text_of(contents, link)))
+        written.append(write_file(text, markdown.text_of(contents, link)))
     return written
 
 
@@ -68,7 +68,8 @@ def _check_targets(sources: list[Path], targets: list[Path]) -> None:
             raise ResultError(f"{target}: cannot be written, there is no such folder; {_EXPECTED}")
 
 
-def _made(folder: Path) -> Path:
+def made_folder(folder: Path) -> Path:
+    """The folder, made where it does not exist."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -76,11 +77,11 @@ def _made(folder: Path) -> Path:
     return folder
 
 
-def write_text(path: Path, text: str) -> Path:
+def write_file(path: Path, content: str | bytes) -> Path:
     """Writes under another name first, so that nobody sees half a file."""
     temporary = path.with_name(f".{path.name}.part")
     try:
-        temporary.write_text(text, encoding="utf-8", errors="replace")
+        temporary.write_bytes(content if isinstance(content, bytes) else content.encode("utf-8", errors="replace"))
         temporary.replace(path)
     except OSError as error:
         temporary.unlink(missing_ok=True)

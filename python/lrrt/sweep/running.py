@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from lrrt.report.writing import write_text
+from lrrt.report.writing import write_file
 from lrrt.sweep.cluster import map_on_ray
 from lrrt.sweep.errors import ShardInterruptedError, SweepError
 from lrrt.sweep.merge import Document, check_alike, check_document, merge, text_of
@@ -73,7 +73,7 @@ def run_sweep(
             _keep(shard, text, documents)
             progress(len(documents))
         document = merge(documents)
-        write_text(_absolute(sweep), text_of(document))
+        write_file(_absolute(sweep), text_of(document))
     except BaseException:
         if not _left(sweep):
             ledger_of(_absolute(sweep)).unlink(missing_ok=True)  # nothing to go on with
@@ -103,7 +103,7 @@ def _keep(shard: Shard, text: str, documents: dict[str, Document]) -> None:
     except SweepError:
         shard.file.unlink(missing_ok=True)  # the worker may have left it
         raise
-    write_text(shard.file, text)
+    write_file(shard.file, text)
     documents[shard.file.name] = document
 
 
@@ -134,7 +134,7 @@ def _token(sweep: Sweep) -> str:
     if left:
         raise SweepError(f"{left[0]}: was left by another sweep; remove {_traces(sweep)}, or give another --json")
     token = uuid.uuid4().hex
-    write_text(ledger, json.dumps(request | {"token": token}, indent=1) + "\n")
+    write_file(ledger, json.dumps(request | {"token": token}, indent=1) + "\n")
     return token
 
 
