@@ -17,8 +17,17 @@ constexpr int side = 256;
 constexpr int step = 6;
 constexpr std::size_t draws_a_step = 16;
 
+/// A scene is kept for good: nobody has to own its map.
+std::shared_ptr<const OccupancyMap> map_of(const Scene& scene) {
+  return {std::shared_ptr<const OccupancyMap>(), &scene.map};
+}
+
 FrontierStrategy frontier_of(const Scene& scene) {
-  return {region_of(scene, perfect(scene)), scene.start, scene.goal, {static_cast<double>(step), Growth::one_tree}};
+  return {map_of(scene),
+          region_of(scene, perfect(scene)),
+          scene.start,
+          scene.goal,
+          {static_cast<double>(step), Growth::one_tree}};
 }
 
 /// The shortest path, pulled taut: what a planner may have found.
@@ -111,7 +120,7 @@ void frontier_make(benchmark::State& state) {
   const PromisingRegion region = region_of(scene, perfect(scene));
   const FrontierOptions options{static_cast<double>(step), Growth::one_tree};
   for ([[maybe_unused]] auto _ : state) {
-    FrontierStrategy strategy(region, scene.start, scene.goal, options);
+    FrontierStrategy strategy(map_of(scene), region, scene.start, scene.goal, options);
     benchmark::DoNotOptimize(strategy);
   }
 }

@@ -60,8 +60,27 @@ cv::Mat1b brightness(const OccupancyMap& map, const InputFit& fit) {
   return plane;
 }
 
+/// True when no row of a plane has a run of white pixels shorter than this.
+bool rows_are_wide(const cv::Mat1b& plane, int length) {
+  for (int r = 0; r < plane.rows; ++r) {
+    const std::uint8_t* row = plane.ptr(r);
+    int run = 0;
+    for (int c = 0; c < plane.cols; ++c) {
+      if (row[c] == 255) {
+        ++run;
+      } else {
+        if (run > 0 && run < length) return false;
+        run = 0;
+      }
+    }
+    if (run > 0 && run < length) return false;
+  }
+  return true;
+}
+
 /// True when every white pixel of a plane lies in a white square of so many pixels a side.
 bool passages_are_wide(const cv::Mat1b& plane, int side) {
+  if (!rows_are_wide(plane, side)) return false;  // soon said, where there is a narrow passage
   const cv::Mat square = cv::getStructuringElement(cv::MORPH_RECT, {side, side});
   cv::Mat1b free;
   cv::Mat1b opened;
