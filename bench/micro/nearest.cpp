@@ -8,12 +8,14 @@
 
 #include <cmath>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
+#include "lrrt/ompl/grid_neighbors.hpp"
 #include "lrrt/sampling/random.hpp"
 
-// What a tree planner pays in OMPL's own structures, every iteration: the nearest node, the nodes of a disc, one more
-// node. None of it is this library's code; it tells how much a quicker one could gain.
+// What a tree planner pays in every iteration: the nearest node, the nodes of a disc, one more node. The grid is this
+// library's, the others are OMPL's.
 namespace lrrt::micro {
 namespace {
 
@@ -22,7 +24,13 @@ namespace ob = ompl::base;
 constexpr double side = 256.0;
 constexpr std::size_t query_count = 1024;
 
-using Node = const ob::State*;
+/// What planners keep: something with a state.
+struct Motion {
+  ob::State* state;
+};
+
+using Node = const Motion*;
+using Grid = GridNeighbors<Node>;
 using Gnat = ompl::NearestNeighborsGNATNoThreadSafety<Node>;  ///< OMPL's choice for planners of one thread
 using GnatForThreads = ompl::NearestNeighborsGNAT<Node>;      ///< and for PRM
 using SqrtApprox = ompl::NearestNeighborsSqrtApprox<Node>;
@@ -37,29 +45,29 @@ class Points {
       auto* state = space_->allocState()->as<ob::RealVectorStateSpace::StateType>();
       (*state)[0] = random.uniform(0.0, side);
       (*state)[1] = random.uniform(0.0, side);
-      states_.push_back(state);
+      motions_.push_back({state});
     }
   }
   ~Points() {
-    for (ob::State* state : states_) space_->freeState(state);
+    for (const Motion& motion : motions_) space_->freeState(motion.state);
   }
   Points(const Points&) = delete;
   Points& operator=(const Points&) = delete;
 
-  Node operator[](std::size_t i) const { return states_[i]; }
-  std::size_t size() const { return states_.size(); }
+  Node operator[](std::size_t i) const { return &motions_[i]; }
+  std::size_t size() const { return motions_.size(); }
 
   /// Adds all of them to a structure, one after the other, as a tree grows.
   template <typename Structure>
   void fill(Structure& structure) const {
     structure.setDistanceFunction(
-        [space = space_.get()](const Node& a, const Node& b) { return space->distance(a, b); });
-    for (Node node : states_) structure.add(node);
+        [space = space_.get()](const Node& a, const Node& b) { return space->distance(a->state, b->state); });
+    for (const Motion& motion : motions_) structure.add(&motion);
   }
 
  private:
   ob::StateSpacePtr space_;
-  std::vector<ob::State*> states_;
+  std::vector<Motion> motions_;
 };
 
 /// The disc within which RRT* rewires a tree of so many nodes in free space (Karaman and Frazzoli 2011), with OMPL's
@@ -67,6 +75,18 @@ class Points {
 double rewiring_radius(double nodes) {
   const double area_of_unit_disc = 3.141592653589793;
   return 1.1 * std::sqrt(3.0 * side * side / area_of_unit_disc * std::log(nodes) / nodes);
+}
+
+template <typename Structure>
+Structure make() {
+  if constexpr (std::is_same_v<Structure, Grid>) {
+    ob::RealVectorBounds square(2);
+    square.setLow(0.0);
+    square.setHigh(side);
+    return Grid(square, 6.0);
+  } else {
+    return {};
+  }
 }
 
 Points nodes_of(const benchmark::State& state) {
@@ -77,7 +97,7 @@ template <typename Structure>
 void nearest(benchmark::State& state) {
   const Points nodes = nodes_of(state);
   const Points queries(query_count, 2);
-  Structure structure;
+  Structure structure = make<Structure>();
   nodes.fill(structure);
   std::size_t i = 0;
   for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(structure.nearest(queries[i++ % query_count]));
@@ -88,7 +108,7 @@ template <typename Structure>
 void disc(benchmark::State& state) {
   const Points nodes = nodes_of(state);
   const Points queries(query_count, 2);
-  Structure structure;
+  Structure structure = make<Structure>();
   nodes.fill(structure);
   const double radius = rewiring_radius(static_cast<double>(nodes.size()));
   std::vector<Node> found;
@@ -107,7 +127,7 @@ template <typename Structure>
 void add(benchmark::State& state) {
   const Points nodes = nodes_of(state);
   for ([[maybe_unused]] auto _ : state) {
-    Structure structure;
+    Structure structure = make<Structure>();
     nodes.fill(structure);
     benchmark::DoNotOptimize(structure);
   }
@@ -117,14 +137,17 @@ void add(benchmark::State& state) {
 constexpr auto sizes = [](auto* row) { row->Arg(1000)->Arg(10000); };
 constexpr auto sizes_us = [](auto* row) { row->Arg(1000)->Arg(10000)->Unit(benchmark::kMicrosecond); };
 
+BENCHMARK(nearest<Grid>)->Name("nearest/one/grid")->Apply(sizes);
 BENCHMARK(nearest<Gnat>)->Name("nearest/one/gnat")->Apply(sizes);
 BENCHMARK(nearest<GnatForThreads>)->Name("nearest/one/gnat_for_threads")->Apply(sizes);
 BENCHMARK(nearest<SqrtApprox>)->Name("nearest/one/sqrt_approx")->Apply(sizes);
 BENCHMARK(nearest<Linear>)->Name("nearest/one/linear")->Apply(sizes);
+BENCHMARK(disc<Grid>)->Name("nearest/disc/grid")->Apply(sizes);
 BENCHMARK(disc<Gnat>)->Name("nearest/disc/gnat")->Apply(sizes);
 BENCHMARK(disc<GnatForThreads>)->Name("nearest/disc/gnat_for_threads")->Apply(sizes);
 BENCHMARK(disc<SqrtApprox>)->Name("nearest/disc/sqrt_approx")->Apply(sizes);
 BENCHMARK(disc<Linear>)->Name("nearest/disc/linear")->Apply(sizes);
+BENCHMARK(add<Grid>)->Name("nearest/add/grid")->Apply(sizes_us);
 BENCHMARK(add<Gnat>)->Name("nearest/add/gnat")->Apply(sizes_us);
 BENCHMARK(add<GnatForThreads>)->Name("nearest/add/gnat_for_threads")->Apply(sizes_us);
 BENCHMARK(add<Linear>)->Name("nearest/add/linear")->Apply(sizes_us);

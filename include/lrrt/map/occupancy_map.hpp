@@ -22,7 +22,7 @@ struct Pixel {
   friend bool operator!=(Pixel a, Pixel b) { return !(a == b); }
 };
 
-/// Position and heading of the map's lower-left corner in the map frame.
+/// A position and a heading in the plane: of a robot, or of a map's lower-left corner in its frame.
 struct Pose2 {
   double x = 0.0;    ///< map units
   double y = 0.0;    ///< map units
