@@ -35,7 +35,7 @@ SETTINGS = {
 CALLS, PAUSE = 60, 0.02
 
 
-def onnxruntime_call(model: str, threads: int, spinning: bool) -> tuple[Callable[[], object], list[int]]:
+def onnxruntime_call(model: str, side: int, threads: int, spinning: bool) -> tuple[Callable[[], object], list[int]]:
     """A function that predicts once, as the library does, and the shape of the input."""
     import onnxruntime
 
@@ -43,17 +43,17 @@ def onnxruntime_call(model: str, threads: int, spinning: bool) -> tuple[Callable
     options.intra_op_num_threads, options.inter_op_num_threads = threads, 1
     options.add_session_config_entry("session.intra_op.allow_spinning", str(int(spinning)))
     session = onnxruntime.InferenceSession(model, options, providers=["CPUExecutionProvider"])
-    shape = [1, *session.get_inputs()[0].shape[1:]]
+    shape = [1, *(n if isinstance(n, int) else side for n in session.get_inputs()[0].shape[1:])]
     picture = pictured(shape)
     return lambda: session.run(None, {"image": picture}), shape
 
 
-def openvino_call(model: str, threads: int) -> tuple[Callable[[], object], list[int]]:
+def openvino_call(model: str, side: int, threads: int) -> tuple[Callable[[], object], list[int]]:
     import openvino
 
     core = openvino.Core()
     graph = core.read_model(model)
-    shape = [1, *(int(side.get_length()) for side in graph.inputs[0].partial_shape[1:])]
+    shape = [1, *(side if n.is_dynamic else int(n.get_length()) for n in graph.inputs[0].partial_shape[1:])]
     graph.reshape(shape)
     compiled = core.compile_model(
         graph, "CPU", {"INFERENCE_NUM_THREADS": threads, "PERFORMANCE_HINT": "LATENCY", "NUM_STREAMS": 1}
@@ -67,9 +67,9 @@ def pictured(shape: list[int]) -> np.ndarray:
     return np.random.default_rng(1).choice(np.array([0, 255], np.uint8), shape)
 
 
-def measure(model: str, runtime: str, **settings: object) -> dict[str, object]:
+def measure(model: str, side: int, runtime: str, **settings: object) -> dict[str, object]:
     """Medians in milliseconds: one call after the other, and after a pause."""
-    call, shape = (onnxruntime_call if runtime == "onnxruntime" else openvino_call)(model, **settings)
+    call, shape = (onnxruntime_call if runtime == "onnxruntime" else openvino_call)(model, side, **settings)
     for _ in range(5):
         call()
     medians = {}
@@ -84,16 +84,19 @@ def measure(model: str, runtime: str, **settings: object) -> dict[str, object]:
     return {**medians, "side": shape[-1]}
 
 
-def in_own_process(model: Path, settings: dict[str, object]) -> dict[str, float] | None:
-    """What measure() finds; None where the runtime is not installed or refuses the model."""
-    job = json.dumps({"model": str(model), **settings})
+def in_own_process(model: Path, side: int, settings: dict[str, object]) -> dict[str, float] | str:
+    """What measure() finds, or the last words of a runtime that is not installed or refuses the model."""
+    job = json.dumps({"model": str(model), "side": side, **settings})
     run = subprocess.run([sys.executable, __file__, "--job", job], capture_output=True, text=True, check=False)
-    return json.loads(run.stdout) if run.returncode == 0 else None
+    return json.loads(run.stdout) if run.returncode == 0 else (run.stderr.strip().splitlines() or ["failed"])[-1]
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("models", nargs="*", type=Path, help="ONNX files")
+    parser.add_argument(
+        "--side", type=int, default=256, help="of the picture, for models that take several (default 256)"
+    )
     parser.add_argument("--rounds", type=int, default=5, help="times that every setting is run (default 5)")
     parser.add_argument("--job", help=argparse.SUPPRESS)
     arguments = parser.parse_args()
@@ -102,9 +105,12 @@ def main() -> None:
         return
     jobs = [(model, name) for model in arguments.models for name in SETTINGS]
     found: dict[tuple[Path, str], list[dict[str, float]]] = {job: [] for job in jobs}
+    failures: dict[tuple[Path, str], str] = {}
     for model, name in track(jobs * arguments.rounds, description="runtimes"):
-        result = in_own_process(model, SETTINGS[name])
-        if result is not None:
+        result = in_own_process(model, arguments.side, SETTINGS[name])
+        if isinstance(result, str):
+            failures[model, name] = result
+        else:
             found[model, name].append(result)
     table = Table("model", "input", "runtime", "one after the other", "after a pause of 20 ms")
     for (model, name), results in found.items():
@@ -112,7 +118,7 @@ def main() -> None:
             busy, paused = (f"{min(r[kind] for r in results):.2f} ms" for kind in ("busy", "paused"))
             table.add_row(model.name, f"{results[0]['side']}²", name, busy, paused)
         else:
-            table.add_row(model.name, "", name, "not installed, or refused", "")
+            table.add_row(model.name, "", name, failures[model, name], "")
     Console().print(table)
 
 

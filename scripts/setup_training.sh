@@ -5,6 +5,13 @@ set -euo pipefail
 # shellcheck source=scripts/common.sh
 . "$(dirname "$0")/common.sh"
 
+want="$(fingerprint "$root/requirements-test.txt")"
+if ! is_current tests "$want"; then
+  say "Installing Ray and OMPL's own Python package, for tests"
+  (pip_install -r "$root/requirements-test.txt") || say "one of them is not to be had here: its tests will be skipped"
+  mark_current tests "$want"
+fi
+
 want="$(fingerprint "$root/training/pyproject.toml")"
 is_current training "$want" && exit 0
 say "Installing the training package; PyTorch brings about 3 GB of downloads"

@@ -10,6 +10,7 @@ from typing import Any
 
 from lrrt.report.fields import ResultError
 from lrrt.report.results import FORMAT
+from lrrt.report.writing import document_text, write_file
 
 Json = dict[str, Any]
 
@@ -37,7 +38,7 @@ class ResultFile:
         if self._part.exists():
             self._resume()
         # Written anew: a run that was killed may have left half a line.
-        _write(self._part, "".join(f"{_line(item)}\n" for item in (self.header, *self._rows.values())))
+        write_file(self._part, "".join(f"{_line(item)}\n" for item in (self.header, *self._rows.values())))
 
     def __contains__(self, row_id: str) -> bool:
         """Whether a row is there already."""
@@ -59,7 +60,7 @@ class ResultFile:
     def finish(self, ids: Sequence[str]) -> Json:
         """Writes F with the rows in this order, complete or not at all, and returns what it holds."""
         document = {"format": FORMAT, **self.header, "rows": [self._rows[row_id] for row_id in ids]}
-        _write(self._path, _text(document))
+        write_file(self._path, document_text(document))
         self._part.unlink(missing_ok=True)
         return document
 
@@ -92,22 +93,6 @@ def _lasting(header: Json) -> Json:
 
 def _line(value: Any) -> str:
     return json.dumps(value, ensure_ascii=False, separators=(",", ":"))
-
-
-def _text(document: Json) -> str:
-    """Indented, but every row on one line."""
-    head = json.dumps({k: v for k, v in document.items() if k != "rows"}, ensure_ascii=False, indent=1)
-    rows = ",\n  ".join(map(_line, document["rows"]))
-    return f'{head[:-2]},\n "rows": [\n  {rows}\n ]\n}}\n'
-
-
-def _write(path: Path, text: str) -> None:
-    fresh = path.with_name(path.name + ".new")
-    try:
-        fresh.write_text(text, encoding="utf-8")
-        fresh.replace(path)
-    except OSError as error:
-        raise _unwritable(path, error) from error
 
 
 def _unwritable(path: Path, error: OSError) -> ResultError:

@@ -67,6 +67,7 @@ def row_of(task: Task, answer: Json, overheads: dict[str, float]) -> Json:
         "solved": solved,
         "iterations": answer["spent"][3],
         "nodes": answer["nodes"],
+        "motion_checks": answer["spent"][1],
         "ended_by_clock": answer["plan_ms"] >= 1e3 * task.setting.time_limit,
         "times_ms": {**times, "total": answer["prepare_ms"] + answer["plan_ms"]},
         **_callbacks(answer["spent"], overheads),

@@ -193,7 +193,7 @@ def info_command(
         return
     table = _plain_table()
     for key, value in fields.items():
-        table.add_row(key.replace("_", " "), ", ".join(value) if isinstance(value, list) else str(value))
+        table.add_row(key.replace("_", " "), ", ".join(map(str, value)) if isinstance(value, list) else str(value))
     Console().print(table)
 
 

@@ -104,7 +104,7 @@ def test_predict_writes_a_picture(picture, tmp_path):
 def test_info_tells_about_a_model():
     fields = json.loads(invoke("info", DATA / "models" / "green.onnx", "--json").stdout)
     assert fields["name"] == "green" and fields["input_size"] == 16
-    assert "promising" in invoke("info").stdout
+    assert "promising" in invoke("info").stdout and "128, 192" in invoke("info").stdout
 
 
 @pytest.mark.parametrize("words", [(), ("plan",), ("predict",), ("info",)])

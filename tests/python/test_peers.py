@@ -243,6 +243,7 @@ def test_rows_have_the_units_and_fields_of_lrrt_bench():
     assert row["history"] == [[8.0, 30, 20.0], [20.0, 90, 18.5]]
     assert row["within_ms"] == {"10": 21.0, "5": 21.0, "2": None, "1": None}
     assert (row["iterations"], row["nodes"], row["times_ms"]["total"]) == (120, 50, 26.0)
+    assert row["motion_checks"] == 250
 
 
 def test_callbacks_are_told_apart():

@@ -141,6 +141,7 @@ def test_a_robot_needs_room(hall):
         ({"time_limit": 0.0}, "time_limit"),
         ({"radius": -1.0}, "radius"),
         ({"unknown": "maybe"}, "occupied"),
+        ({"neighbors": "kd"}, "grid"),
         ({"goal_bias": 0.0}, "goal_tolerance"),
         ({"planner": "RRT", "stop": "limit"}, "RRTstar"),
     ],
@@ -154,6 +155,17 @@ def test_options_out_of_range_are_refused(options, word):
 def test_points_that_are_no_numbers_are_refused(point):
     with pytest.raises(lrrt.RequestError, match="start"):
         lrrt.plan(OPEN, point, (50, 50))
+
+
+def test_neighbours_change_nothing_but_the_time():
+    rng = np.random.default_rng(3)
+    m = lrrt.OccupancyMap.from_array(random_map(rng, 60))
+    ours, theirs = (
+        lrrt.plan(m, (0.5, 0.5), (0.5, 5.5), strategy="uniform", stop="limit", iteration_limit=2000, neighbors=word)
+        for word in ("grid", "ompl")
+    )
+    assert ours.nodes == theirs.nodes and ours.motion_checks == theirs.motion_checks > 0
+    assert np.array_equal(ours.path, theirs.path)
 
 
 def test_limits_end_a_search():

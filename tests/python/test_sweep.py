@@ -27,7 +27,8 @@ from worker_tasks import always_dies, dies_once, refuses, square
 
 from lrrt import cli
 from lrrt.report import load, terminal_report
-from lrrt.sweep import ClusterError, Sweep, SweepError, WorkerLostError, cluster, map_on_ray, merge, run_sweep, text_of
+from lrrt.report.writing import document_text
+from lrrt.sweep import ClusterError, Sweep, SweepError, WorkerLostError, cluster, map_on_ray, merge, run_sweep
 from lrrt.sweep.errors import ShardInterruptedError
 from lrrt.sweep.shards import Shard, ledger_of, run_shard
 
@@ -134,7 +135,7 @@ def test_every_shard_keeps_its_machine_and_the_whole_what_all_share():
 
 def test_the_merged_file_is_a_result(tmp_path):
     file = tmp_path / "merged.json"
-    file.write_text(text_of(merge(shards_of(whole(), 3))), encoding="utf-8")
+    file.write_text(document_text(merge(shards_of(whole(), 3))), encoding="utf-8")
     assert json.loads(file.read_text(encoding="utf-8"))["rows"] == whole()["rows"]
     assert [run.iterations for run in load(file).runs[::2]] == list(range(100, 107))
     assert "A processor, 2 cores" in terminal_report(file)
@@ -196,7 +197,7 @@ def test_the_program_shards_what_is_merged_again(bench, tmp_path):
     single = written(tmp_path / "whole.json")
     assert untimed(merged) == untimed(single)
     assert all(merged[key] == single[key] for key in ("suite", "folder", "inputs", "versions", "machine"))
-    (tmp_path / "merged.json").write_text(text_of(merged), encoding="utf-8")
+    (tmp_path / "merged.json").write_text(document_text(merged), encoding="utf-8")
     assert "40 of 40 rows are the same" in run(tmp_path / "again.json", "--replay", str(tmp_path / "merged.json"))
 
 

@@ -95,8 +95,9 @@ def export(
         raise typer.BadParameter(str(error)) from error
     stage = training.curriculum.stages[-1]
     *smaller, size = [size] if size else sorted(set(stage.sizes))
-    if size % network.stride:
-        raise typer.BadParameter(f"--size {size}: expected a multiple of {network.stride} for this network")
+    for side in (*smaller, size):
+        if side % network.stride:
+            raise typer.BadParameter(f"side {side}: expected a multiple of {network.stride} for this network")
     output.parent.mkdir(parents=True, exist_ok=True)
     properties = files.metadata(
         output.stem,
@@ -110,7 +111,7 @@ def export(
     )
     training.prepare_data()
     images = [picture for side in [size, *smaller] for picture in training.pictures(CALIBRATION_PICTURES, side)]
-    shown = images[::CALIBRATION_PICTURES] + images[:3]
+    shown = images[::CALIBRATION_PICTURES] + images[1:4]
     fp32 = output.with_suffix(".fp32.onnx") if int8 else output
     try:
         files.export_onnx(network, fp32, size, properties)

@@ -215,11 +215,14 @@ class RegionData(lightning.LightningDataModule):
         return list(counts / counts.sum())
 
     def pictures(self, count: int, size: int = 0) -> torch.Tensor:
-        """(N, 3, S, S) uint8, network inputs of scenes spread over the last stage; S is ``size`` or the stage's."""
+        """(N, 3, S, S) uint8, network inputs of scenes spread over the last stage; S is ``size`` or the stage's. Where
+        the stage has samples of that side, it is their scenes."""
         dataset, last = self.dataset(), len(self.curriculum.stages) - 1
         begin, stage = self.curriculum.begin(last), self.curriculum.stages[last]
-        encoder = lrrt.Encoder(size=size or stage.size, marker_side=MARKER_SIDE)
-        scenes = (dataset.scene(begin + i * stage.samples // count) for i in range(count))
+        size = size or stage.size
+        encoder = lrrt.Encoder(size=size, marker_side=MARKER_SIDE)
+        fitting = [i for i in range(stage.samples) if stage.size_at(i) == size or size not in stage.sizes]
+        scenes = (dataset.scene(begin + fitting[i * len(fitting) // count]) for i in range(count))
         return torch.stack([encoded(encoder, scene)["image"] for scene in scenes])
 
     def state_dict(self) -> dict[str, Any]:

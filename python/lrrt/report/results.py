@@ -61,6 +61,7 @@ class Setting:
     range: float
     stop: str
     time_limit: float  #: seconds
+    neighbors: str = ""  #: what finds the near nodes of its tree; empty in files that do not say
 
     @property
     def guided(self) -> bool:
@@ -204,6 +205,7 @@ def _setting(fields: Fields) -> Setting:
         range=fields.number("range"),
         stop=fields.text("stop"),
         time_limit=fields.number("time_limit"),
+        neighbors=fields.text("neighbors", ""),
     )
 
 

@@ -4,14 +4,13 @@
 from __future__ import annotations
 
 import gzip
-import json
 import os
 from pathlib import Path
 from typing import Any
 
 from lrrt.report.fields import read_document
 from lrrt.report.results import load
-from lrrt.report.writing import write_file
+from lrrt.report.writing import document_text, write_file
 
 LEAST_FALL = 0.001  #: share by which a path has to get shorter for its step to be kept; below the width of a line
 _DIGITS = 6  # of the steps between the first and the last
@@ -35,7 +34,7 @@ def store(source: str | os.PathLike[str], target: str | os.PathLike[str]) -> tup
     """
     source, target = Path(source), Path(target)
     load(source)  # refuses what no report could show
-    content = gzip.compress(text_of(slimmed(read_document(source))).encode(), mtime=0)  # same result, same bytes
+    content = gzip.compress(document_text(slimmed(read_document(source))).encode(), mtime=0)  # same result, same bytes
     write_file(target, content)
     return source.stat().st_size, len(content)
 
@@ -48,6 +47,9 @@ def slimmed(document: dict[str, Any]) -> dict[str, Any]:
     """
     rows = [{**row, "history": thinned(row["history"])} if row.get("history") else row for row in document["rows"]]
     slim = {**document, "rows": rows}
+    if "system" in document.get("machine", {}):  # as "Linux x86_64": the kernel's version says nothing about the times
+        words = document["machine"]["system"].split()
+        slim["machine"] = {**document["machine"], "system": " ".join([words[0], words[-1]])}
     if "folder" in document:
         slim["folder"] = "/".join(_SUITES) if Path(document["folder"]).parts[-2:] == _SUITES else "."
     return slim
@@ -61,13 +63,6 @@ def thinned(history: list[Step]) -> list[Step]:
         if step[2] <= kept[-1][2] * (1 - LEAST_FALL):
             kept.append(step)
     return [*kept, history[-1]] if len(history) > 1 else kept
-
-
-def text_of(document: dict[str, Any]) -> str:
-    """JSON as the program writes it: every row on a line of its own."""
-    head = {key: value for key, value in document.items() if key != "rows"}
-    rows = ",\n".join(json.dumps(row, ensure_ascii=False, separators=(",", ":")) for row in document["rows"])
-    return json.dumps(head, ensure_ascii=False, indent=1).removesuffix("\n}") + f',\n "rows": [\n{rows}\n ]\n}}\n'
 
 
 def _rounded(value: float) -> float:

@@ -154,12 +154,13 @@ def settings_table(results: PlanResults) -> Table:
             f"{s.alpha:g}" if s.guided else "-",
             PurePosixPath(s.model).name if s.guided else "-",
             f"{s.range:g}" if s.range else "by the map",
+            s.neighbors or "-",
             s.stop,
             f"{s.time_limit:g}",
         )
         for s in results.settings.values()
     ]
-    columns = ("row", "planner", "samples", "α", "model", "range", "stop", "time limit, s")
+    columns = ("row", "planner", "samples", "α", "model", "range", "near nodes", "stop", "time limit, s")
     return Table("Planners", columns, rows)
 
 

@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from lrrt.report import html, markdown
 from lrrt.report.content import chapters
@@ -75,6 +77,13 @@ def made_folder(folder: Path) -> Path:
     except OSError as error:
         raise ResultError(f"{folder}: cannot be made ({error.strerror or error}); expected a folder") from error
     return folder
+
+
+def document_text(document: dict[str, Any]) -> str:
+    """A result as lrrt_bench writes it: indented, but every row on one line."""
+    head = {key: value for key, value in document.items() if key != "rows"}
+    rows = ",".join(f"\n  {json.dumps(row, ensure_ascii=False, separators=(',', ':'))}" for row in document["rows"])
+    return json.dumps(head, ensure_ascii=False, indent=1).removesuffix("\n}") + f',\n "rows": [{rows}\n ]\n}}\n'
 
 
 def write_file(path: Path, content: str | bytes) -> Path:

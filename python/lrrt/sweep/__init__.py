@@ -10,7 +10,7 @@
 
 from lrrt.sweep.cluster import ClusterError, WorkerLostError, map_on_ray
 from lrrt.sweep.errors import SweepError
-from lrrt.sweep.merge import merge, text_of
+from lrrt.sweep.merge import merge
 from lrrt.sweep.running import Sweep, finished_shards, run_sweep
 
 __all__ = [
@@ -22,5 +22,4 @@ __all__ = [
     "map_on_ray",
     "merge",
     "run_sweep",
-    "text_of",
 ]

@@ -39,7 +39,8 @@ def map_on_ray(
 ) -> Iterator[tuple[T, R]]:
     """Calls a function on every item, in processes of a Ray cluster, and yields what is finished as it comes.
 
-    An item whose worker dies is tried again, nine times in all. What the function raises ends the map. Ray is shut down
+    An item whose worker dies is tried again, nine times in all, and three times where the function asks for it. What
+    the function raises otherwise ends the map. Ray is shut down
     at the end, however the map ends, if it was started here; a session that is open already is used and stays.
 
     Args:

@@ -44,13 +44,6 @@ def merge(shards: Mapping[str, Document]) -> Document:
     }
 
 
-def text_of(document: Document) -> str:
-    """A document as lrrt_bench writes it: indented, but every row on one line."""
-    head = {key: value for key, value in document.items() if key != "rows"}
-    rows = ",".join(f"\n  {json.dumps(row, ensure_ascii=False, separators=(',', ':'))}" for row in document["rows"])
-    return json.dumps(head, ensure_ascii=False, indent=1).removesuffix("\n}") + f',\n "rows": [{rows}\n ]\n}}\n'
-
-
 def check_alike(name: str, document: Document, other_name: str, other: Document) -> None:
     """Raises SweepError unless two shards have the same suite, inputs and versions; names what differs."""
     for key in _ALIKE:

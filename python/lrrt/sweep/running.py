@@ -13,10 +13,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from lrrt.report.writing import write_file
+from lrrt.report.writing import document_text, write_file
 from lrrt.sweep.cluster import map_on_ray
 from lrrt.sweep.errors import ShardInterruptedError, SweepError
-from lrrt.sweep.merge import Document, check_alike, check_document, merge, text_of
+from lrrt.sweep.merge import Document, check_alike, check_document, merge
 from lrrt.sweep.shards import Shard, ledger_of, run_shard
 
 _FORMAT = "lrrt sweep 1"
@@ -73,7 +73,7 @@ def run_sweep(
             _keep(shard, text, documents)
             progress(len(documents))
         document = merge(documents)
-        write_file(_absolute(sweep), text_of(document))
+        write_file(_absolute(sweep), document_text(document))
     except BaseException:
         if not _left(sweep):
             ledger_of(_absolute(sweep)).unlink(missing_ok=True)  # nothing to go on with

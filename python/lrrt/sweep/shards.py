@@ -61,9 +61,19 @@ def run_shard(shard: Shard) -> str:
     """Runs a shard, or goes on with it, and returns its result file's text.
 
     Raises:
-        SweepError: lrrt_bench is not there or refuses; names the machine and says what lrrt_bench said.
+        SweepError: lrrt_bench is not there or refuses, or a file cannot be read or written; names the machine and says
+            what lrrt_bench said.
         ShardInterruptedError: something ended it.
     """
+    try:
+        return _result_of(shard)
+    except OSError as error:
+        raise SweepError(
+            f"{shard} on {platform.node()}: {error}; expected files that may be read and written"
+        ) from error
+
+
+def _result_of(shard: Shard) -> str:
     if _sees_the_sweep(shard):
         if shard.file.exists():  # its worker died after the last row
             return shard.file.read_text(encoding="utf-8")
