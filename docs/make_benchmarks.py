@@ -142,7 +142,8 @@ def body_of(folder: Folder, block: Block) -> str:
 def _view_text(folder: Folder, results: PlanResults | PredictResults, name: str, view: str) -> str:
     if view == "facts":
         facts = " · ".join(f"{key}: {escaped(value)}" for key, value in facts_of(results))
-        return f"{facts} · Run it again: {code(replay_command(f'docs/{RESULTS}/{name}{ENDING}'))}"
+        command = replay_command(f"docs/{RESULTS}/{name}{ENDING}", "build/release/bench/lrrt_bench")
+        return f"{facts} · Run it again: {code(command)}"
     if view.startswith("figure:"):
         picture = view.removeprefix("figure:")
         return picture_lines(folder.picture(name, picture), f"{IMAGES}/{file_name(name, picture)}")

@@ -74,10 +74,10 @@ def facts_of(results: PlanResults | PredictResults) -> list[tuple[str, str]]:
     return [*facts, ("Measured", runs)]
 
 
-def replay_command(file: str) -> str:
+def replay_command(file: str, program: str = "lrrt_bench") -> str:
     """The command that runs a result again; the program reads what is gzipped through a pipe."""
     name = shlex.quote(file)
-    return f"zcat {name} | lrrt_bench --replay /dev/stdin" if file.endswith(".gz") else f"lrrt_bench --replay {name}"
+    return f"zcat {name} | {program} --replay /dev/stdin" if file.endswith(".gz") else f"{program} --replay {name}"
 
 
 def _facts(head: Head) -> list[tuple[str, str]]:
