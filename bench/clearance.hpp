@@ -16,7 +16,8 @@ struct Clearance {
 
 /// Clearance of a path, asked for at steps of half a pixel; distances are those of DistanceField, from pixel centre to
 /// pixel centre.
-/// @param map that a point plans on. @param path map units; its points, when it has no length.
+/// @param map that a point plans on, so that obstacles are grown by the robot's radius. @param path map units; an empty
+/// one has none.
 Clearance clearance_of(const OccupancyMap& map, const std::vector<Eigen::Vector2d>& path);
 
 }  // namespace lrrt::bench

@@ -108,9 +108,10 @@ Outcome run_replay(const Request& request, const CancelToken& cancel) {
   const Json before = read_result(request.replay);
   const Suite suite = replayed_suite(before, request.replay);
   check_outputs(request, suite);
-  const Campaign campaign =
+  Campaign campaign =
       is_plan(suite) ? plan_campaign(suite, cancel, replay_limits(before)) : predict_campaign(suite, cancel);
   check_inputs(before, campaign.inputs, request.replay);
+  keep_jobs_of(before, campaign.jobs);
   Json header = header_of(suite, campaign);
   header["replay_of"] = request.replay;
   ResultFile results(request.json, header);

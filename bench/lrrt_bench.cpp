@@ -32,7 +32,7 @@ constexpr const char* footer =
     "  first path    milliseconds from the call to the first path, prediction and all else included\n"
     "  search        the planner's share of it\n"
     "  length        of the last path, divided by the exact shortest path\n"
-    "  clearance     mean distance from the last path to the nearest obstacle, map units\n"
+    "  clearance     mean distance from the last path to the nearest obstacle (grown by the radius), map units\n"
     "  gain          the baseline's number divided by the row's, run by run; above 1 the row is better\n\n"
     "Exit codes: 0 done, 2 bad input, 3 a replay differs, 130 interrupted.";
 

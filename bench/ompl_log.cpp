@@ -77,7 +77,7 @@ std::string run_line(const Json& row) {
   text << row.at("solved").get<bool>() << "; " << status_number(row) << "; " << number(times, "total", 1e3) << "; "
        << number(row, "first_ms", 1e3) << "; " << prediction / 1e3 << "; " << row.at("iterations") << "; "
        << row.at("nodes") << "; " << number(row, "length") << "; " << number(row, "first_length") << "; "
-       << number(row, "optimum") << "; " << number(row, "motion_checks") << "; "
+       << number(row, "optimum") << "; " << dumped(row.value("motion_checks", Json(0))) << "; "
        << number(row.value("clearance", Json::object()), "mean") << "; ; " << row.at("seed") << "; ";
   return text.str();
 }

@@ -46,7 +46,11 @@ Json problem_json(const Problem& problem, const OccupancyMap& map, const std::st
 std::size_t export_problems(const Suite& suite, const std::filesystem::path& folder) {
   const auto* body = std::get_if<PlanSuite>(&suite.body);
   if (body == nullptr) throw SuiteError("--problems: the suite predicts and plans nothing; expected 'kind: plan'");
-  std::filesystem::create_directories(folder);
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!std::filesystem::is_directory(folder, error)) {
+    throw ResultError("--problems " + folder.string() + ": cannot be made; expected a folder that may be written");
+  }
   Json document = {{"suite", to_json(suite)}, {"problems", Json::array()}};
   std::map<std::string, std::string> pictures;  // by map
   for (const Problem& problem : make_problems(suite)) {

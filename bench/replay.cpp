@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "replay.hpp"
 
+#include <algorithm>
 #include <cstdlib>
+#include <set>
 
 #include "result_file.hpp"
 
@@ -37,6 +39,16 @@ IterationLimits replay_limits(const Json& document) {
     if (ended_by_clock(row)) limits[row.at("id").get<std::string>()] = row.at("iterations").get<std::size_t>();
   }
   return limits;
+}
+
+void keep_jobs_of(const Json& document, std::vector<Job>& jobs) {
+  std::set<std::string> ids;
+  for (const Json& row : document.at("rows")) ids.insert(row.at("id").get<std::string>());
+  jobs.erase(std::remove_if(jobs.begin(), jobs.end(), [&](const Job& job) { return ids.count(job.id) == 0; }),
+             jobs.end());
+  if (jobs.size() == document.at("rows").size()) return;
+  throw ResultError("the result has " + std::to_string(document.at("rows").size()) + " rows, of which " +
+                    std::to_string(jobs.size()) + " can be run again: it was changed, or made by another version");
 }
 
 void check_inputs(const Json& document, const Json& inputs, const std::filesystem::path& file) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "campaign.hpp"
 #include "json.hpp"
@@ -18,6 +19,10 @@ IterationLimits replay_limits(const Json& document);
 
 /// @throws ResultError when a map or model is not what it was.
 void check_inputs(const Json& document, const Json& inputs, const std::filesystem::path& file);
+
+/// Keeps the jobs whose rows a document has: all of a whole run, some of a shard's.
+/// @throws ResultError when a row of the document has no job any more.
+void keep_jobs_of(const Json& document, std::vector<Job>& jobs);
 
 /// What came of a replay.
 struct Comparison {

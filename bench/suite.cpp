@@ -94,8 +94,9 @@ namespace {
 /// A user's own map or folder of maps, with queries drawn at random.
 MapSource own_maps(const std::string& path) {
   std::error_code ignored;
-  const fs::path absolute = fs::absolute(path);
-  if (!fs::exists(absolute, ignored)) throw SuiteError("--maps " + path + ": expected a map file or a folder of maps");
+  const fs::path absolute = fs::absolute(path, ignored);
+  if (path.empty() || !fs::exists(absolute, ignored))
+    throw SuiteError("--maps '" + path + "': expected a map file or a folder of maps");
   MapSource source;
   source.kind = fs::is_directory(absolute, ignored) ? MapSource::Kind::folder : MapSource::Kind::file;
   source.name = path;
@@ -121,7 +122,12 @@ void apply(const Overrides& overrides, Suite& suite) {
     throw SuiteError("--maps: the suite plans nothing; expected 'kind: plan'");
   if (plan != nullptr) {
     if (!overrides.maps.empty()) plan->maps.clear();
-    for (const std::string& path : overrides.maps) plan->maps.push_back(own_maps(path));
+    for (const std::string& path : overrides.maps) {
+      const auto same = [&](const MapSource& other) { return other.name == path; };
+      if (std::any_of(plan->maps.begin(), plan->maps.end(), same))
+        throw SuiteError("--maps '" + path + "': named twice");
+      plan->maps.push_back(own_maps(path));
+    }
     for (PlanRow& row : plan->rows) row.options.time_limit = overrides.time_limit.value_or(row.options.time_limit);
   }
 }

@@ -54,7 +54,7 @@ Stop stop_from_string(const std::string& word);
 
 /// What finds the nodes of a tree that are near.
 enum class Neighbors {
-  grid,  ///< GridNeighbors, for trees in the plane: a share of OMPL's time, and the same nodes
+  grid,  ///< GridNeighbors for RRT, RRT-Connect, RRT* and its kin: a share of OMPL's time, and the same nodes
   ompl,  ///< what OMPL itself takes: for comparisons with OMPL as it ships
 };
 

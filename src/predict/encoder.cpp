@@ -46,27 +46,32 @@ InputFit fit(const OccupancyMap& map, int size, const PixelBox& crop) {
   return result;
 }
 
-/// One plane with the brightness of the map: 255 free, 0 occupied, grey where pixels were averaged.
-cv::Mat1b brightness(const OccupancyMap& map, const InputFit& fit) {
-  cv::Mat1b part(fit.crop.height, fit.crop.width);
+/// A part of the map: 255 free, 0 not.
+cv::Mat1b free_pixels(const OccupancyMap& map, const PixelBox& crop) {
+  cv::Mat1b part(crop.height, crop.width);
   for (int r = 0; r < part.rows; ++r) {
-    const Cell* source = map.cells().data() + map.index({fit.crop.c, fit.crop.r + r});
+    const Cell* source = map.cells().data() + map.index({crop.c, crop.r + r});
     std::transform(source, source + part.cols, part.ptr(r),
                    [](Cell cell) { return static_cast<std::uint8_t>(cell == Cell::free ? 255 : 0); });
   }
+  return part;
+}
+
+/// One plane with the brightness of the map: 255 free, 0 occupied, grey where pixels were averaged.
+cv::Mat1b brightness(const cv::Mat1b& part, const InputFit& fit) {
   cv::Mat1b plane(fit.size, fit.size, std::uint8_t{0});
   cv::Mat1b place = plane(to_rect(fit.placed));
   cv::resize(part, place, place.size(), 0, 0, fit.scale < 1.0 ? cv::INTER_AREA : cv::INTER_NEAREST);
   return plane;
 }
 
-/// True when no row of a plane has a run of white pixels shorter than this.
-bool rows_are_wide(const cv::Mat1b& plane, int length) {
-  for (int r = 0; r < plane.rows; ++r) {
-    const std::uint8_t* row = plane.ptr(r);
+/// True when no row has a run of free pixels shorter than this.
+bool rows_are_wide(const cv::Mat1b& part, int length) {
+  for (int r = 0; r < part.rows; ++r) {
+    const std::uint8_t* row = part.ptr(r);
     int run = 0;
-    for (int c = 0; c < plane.cols; ++c) {
-      if (row[c] == 255) {
+    for (int c = 0; c < part.cols; ++c) {
+      if (row[c] != 0) {
         ++run;
       } else {
         if (run > 0 && run < length) return false;
@@ -78,16 +83,29 @@ bool rows_are_wide(const cv::Mat1b& plane, int length) {
   return true;
 }
 
-/// True when every white pixel of a plane lies in a white square of so many pixels a side.
-bool passages_are_wide(const cv::Mat1b& plane, int side) {
-  if (!rows_are_wide(plane, side)) return false;  // soon said, where there is a narrow passage
+/// True when every free pixel lies in a free square of so many pixels a side.
+bool passages_are_wide(const cv::Mat1b& part, int side) {
+  if (!rows_are_wide(part, side)) return false;  // soon said, where there is a narrow passage
   const cv::Mat square = cv::getStructuringElement(cv::MORPH_RECT, {side, side});
-  cv::Mat1b free;
   cv::Mat1b opened;
-  cv::compare(plane, cv::Scalar(255), free, cv::CMP_EQ);
-  cv::erode(free, opened, square, {0, 0}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  cv::erode(part, opened, square, {0, 0}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
   cv::dilate(opened, opened, square, {side - 1, side - 1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
-  return cv::countNonZero(free) == cv::countNonZero(opened);
+  return cv::countNonZero(part) == cv::countNonZero(opened);
+}
+
+/// On maps that are shown at less than half their size, looking for narrow passages takes longer than it saves.
+constexpr double least_scale = 0.5;
+
+/// The smallest input in which passages keep their width, else the largest.
+InputFit smallest_fit(const OccupancyMap& map, const InputSpec& spec, const PixelBox& crop, const cv::Mat1b& part) {
+  InputFit largest = fit(map, spec.size, crop);
+  if (largest.scale < least_scale) return largest;
+  for (const int side : spec.smaller) {
+    const InputFit smaller = fit(map, side, crop);
+    const auto width = static_cast<int>(std::ceil(spec.least_passage / smaller.scale - 1e-9));  // map pixels
+    if (passages_are_wide(part, width)) return smaller;
+  }
+  return largest;
 }
 
 /// Blends free and obstacle colour by brightness into one colour plane.
@@ -165,16 +183,9 @@ InputFit Encoder::encode(const OccupancyMap& map, const Eigen::Vector2d& start, 
   const Pixel start_pixel = free_pixel(map, start, "start");
   const Pixel goal_pixel = free_pixel(map, goal, "goal");
   const PixelBox crop = part_that_matters(map, start_pixel, goal_pixel);
-  InputFit result = fit(map, spec_.size, crop);
-  cv::Mat1b bright = brightness(map, result);
-  for (const int side : spec_.smaller) {
-    const InputFit smaller = fit(map, side, crop);
-    const double shrink = result.scale / smaller.scale;
-    if (!passages_are_wide(bright, static_cast<int>(std::ceil(spec_.least_passage * shrink - 1e-9)))) continue;
-    result = smaller;
-    bright = brightness(map, result);
-    break;
-  }
+  const cv::Mat1b part = free_pixels(map, crop);
+  const InputFit result = smallest_fit(map, spec_, crop, part);
+  const cv::Mat1b bright = brightness(part, result);
   const cv::Rect start_marker = marker(result, start_pixel, spec_.marker_side);
   const cv::Rect goal_marker = marker(result, goal_pixel, spec_.marker_side);
   const auto plane_size = static_cast<std::size_t>(result.size) * static_cast<std::size_t>(result.size);

@@ -123,8 +123,9 @@ Pixel FrontierStrategy::draw_on_way(const Front& front, Random& random) const {
 Eigen::Vector2d FrontierStrategy::draw_for_shorter(Random& random) {
   ++draws_on_path_;
   if (random.uniform() < std::max(least_corner_share, corner_share * fading(trust))) return draw_at_corner(random);
-  if (!ways_ && map_->size() <= std::min(most_pixels, pixels_a_draw * draws_on_path_)) {
-    ways_.emplace(*map_, start_, goal_, length_);
+  if (!ways_ && map_ && map_->size() <= std::min(most_pixels, pixels_a_draw * draws_on_path_)) {
+    ways_ = ShortWays::between(*map_, start_, goal_, length_);
+    map_.reset();  // looked at; where its free pixels do not join the ends, the region is all there is
   }
   return ways_ ? ways_->draw(random) : draw_on_region(random);
 }
@@ -182,8 +183,8 @@ void FrontierStrategy::connected(const Eigen::Vector2d& from, const Eigen::Vecto
   }
 }
 
-double FrontierStrategy::fading(double patience) const {
-  return std::exp2(-static_cast<double>(stalled_) / patience);
+double FrontierStrategy::fading(double half_life) const {
+  return std::exp2(-static_cast<double>(stalled_) / half_life);
 }
 
 double FrontierStrategy::confidence() const {

@@ -5,15 +5,13 @@
 #include <cmath>
 #include <limits>
 
-#include "lrrt/error.hpp"
-#include "lrrt/region/geodesic.hpp"
 #include "lrrt/sampling/strategy.hpp"
 
 namespace lrrt {
 namespace {
 
-/// Ways counted in steps to eight neighbours are longer than straight ones by up to this factor, and by a few pixels
-/// for the ends inside their pixels.
+/// Ways counted in steps to eight neighbours are longer than straight ones by up to this factor, but for staircases of
+/// single pixels, and by a few pixels for the ends inside their pixels.
 constexpr double longest_detour = 1.09;
 constexpr double slack = 4.0;
 
@@ -25,12 +23,16 @@ std::int32_t most_steps(double length) {
 
 }  // namespace
 
-ShortWays::ShortWays(const OccupancyMap& map, Pixel start, Pixel goal, double length) {
+std::optional<ShortWays> ShortWays::between(const OccupancyMap& map, Pixel start, Pixel goal, double length) {
   const std::vector<std::uint8_t> free = map.free_mask();
   const Geodesic from_start(free, map.width(), map.height(), start);
-  const Geodesic from_goal(free, map.width(), map.height(), goal);
-  shortest_ = from_start.at(goal);
-  if (shortest_ == Geodesic::unreached) throw RequestError("no way joins start and goal: there is none to shorten");
+  const std::int32_t shortest = from_start.at(goal);
+  if (shortest == Geodesic::unreached) return std::nullopt;
+  return ShortWays(from_start, Geodesic(free, map.width(), map.height(), goal), shortest, length);
+}
+
+ShortWays::ShortWays(const Geodesic& from_start, const Geodesic& from_goal, std::int32_t shortest, double length)
+    : shortest_(shortest) {
   const std::int32_t most = std::max(most_steps(length), shortest_);
   const auto excess = [&](Pixel p) {
     const std::int32_t steps = from_start.at(p) + from_goal.at(p);

@@ -10,7 +10,9 @@
 #include <string>
 
 #include "campaign.hpp"
+#include "clearance.hpp"
 #include "lrrt/io/read_map.hpp"
+#include "lrrt/sampling/random.hpp"
 #include "ompl_log.hpp"
 #include "problem_export.hpp"
 #include "problems.hpp"
@@ -209,6 +211,8 @@ TEST(Shards, TogetherAreTheWholeAndKeepPairsTogether) {
   for (int number = 1; number <= 4; ++number) {
     const std::vector<Job> part = jobs_of(campaign.jobs, {number, 4});
     ASSERT_EQ(part.size() % 2, 0U);
+    EXPECT_GE(part.size(), 2U);
+    EXPECT_LE(part.size(), 4U);
     for (std::size_t i = 0; i < part.size(); i += 2) EXPECT_EQ(part[i].pair, part[i + 1].pair);
     for (const Job& job : part) ids.push_back(job.id);
   }
@@ -217,6 +221,41 @@ TEST(Shards, TogetherAreTheWholeAndKeepPairsTogether) {
   std::sort(ids.begin(), ids.end());
   std::sort(all.begin(), all.end());
   EXPECT_EQ(ids, all);
+}
+
+TEST_F(Results, AShardIsReplayedByItself) {
+  const Suite suite = parse_suite(unguided, "my.yaml", ".");
+  Json shard = document_of(suite);
+  std::vector<Job> jobs = plan_campaign(suite, {}).jobs;
+  const std::vector<Job> part = jobs_of(jobs, {2, 3});
+  Json rows = Json::array();
+  for (const Json& row : shard.at("rows")) {
+    const auto has = [&](const Job& job) { return job.id == row.at("id"); };
+    if (std::any_of(part.begin(), part.end(), has)) rows.push_back(row);
+  }
+  shard["rows"] = rows;
+  keep_jobs_of(shard, jobs);
+  ASSERT_EQ(jobs.size(), part.size());
+  for (std::size_t i = 0; i < jobs.size(); ++i) EXPECT_EQ(jobs[i].id, rows.at(i).at("id"));
+  shard["rows"].push_back({{"id", "of another suite"}});
+  EXPECT_THROW(keep_jobs_of(shard, jobs), ResultError);
+}
+
+TEST(Clearance, OfAFreePathIsNeverZero) {
+  const OccupancyMap map(4, 9, [] {
+    std::vector<Cell> cells(36, Cell::free);
+    for (int r = 0; r < 9; ++r) cells[static_cast<std::size_t>(4 * r)] = Cell::occupied;
+    return cells;
+  }());
+  Random random(5);
+  for (int i = 0; i < 2000; ++i) {
+    const Clearance along = clearance_of(map, {{2.9, random.uniform(0.0, 9.0)}, {1.0, 7.0}, {1.0, 7.0}});
+    EXPECT_EQ(along.least, 1.0);
+    EXPECT_GE(along.mean, 1.0);
+    EXPECT_LE(along.mean, 2.0);
+  }
+  EXPECT_EQ(clearance_of(map, {{2.5, 4.5}}).mean, 2.0);
+  EXPECT_EQ(clearance_of(map, {}).mean, 0.0);
 }
 
 TEST(Shards, WhatIsNoPartIsRefused) {
@@ -236,6 +275,10 @@ TEST_F(Results, ExportedProblemsAreThoseThatAreRun) {
   for (std::size_t i = 0; i < problems.size(); ++i) {
     const Json& entry = list.at("problems").at(i);
     EXPECT_EQ(entry.at("map"), problems[i].map_name);
+    for (const int axis : {0, 1}) {
+      EXPECT_EQ(entry.at("start").at(axis), problems[i].start[axis]);
+      EXPECT_EQ(entry.at("goal_pixel").at(axis), problems[i].map->to_pixel(problems[i].goal)[axis]);
+    }
     EXPECT_EQ(entry.at("optimum"), rows.at(6 * i).at("optimum"));
     const OccupancyMap map = read_map(folder / entry.at("picture").get<std::string>());
     EXPECT_EQ(map_checksum(map), map_checksum(*problems[i].map));

@@ -94,8 +94,11 @@ TEST(Suite, OwnMapsTakeThePlaceOfTheSuites) {
   EXPECT_EQ(problems.size(), 25U);  // five maps, five queries each
   for (const Problem& problem : problems)
     EXPECT_TRUE(problem.group == changes.maps[0] || problem.group == changes.maps[1]);
-  changes.maps = {"nowhere"};
-  EXPECT_THROW(apply(changes, suite), SuiteError);
+  for (const std::vector<std::string>& wrong :
+       {std::vector<std::string>{"nowhere"}, {""}, {LRRT_BENCH_SUITES, LRRT_BENCH_SUITES}}) {
+    changes.maps = wrong;
+    EXPECT_THROW(apply(changes, suite), SuiteError);
+  }
   Suite predictions = load_suite("predict");
   changes.maps = {LRRT_BENCH_SUITES};
   EXPECT_THROW(apply(changes, predictions), SuiteError);

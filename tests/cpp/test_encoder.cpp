@@ -119,6 +119,21 @@ TEST(Encoder, ASquareOfTheStatedWidthFitsInEveryPassageThatIsShownSmaller) {
   EXPECT_GT(smaller, 10);
 }
 
+TEST(Encoder, PassagesThatScalingMakesGreyCountToo) {
+  InputSpec spec = several_sizes();
+  std::vector<std::uint8_t> image;
+  for (const int door : {1, 2, 6, 40}) {
+    std::vector<Cell> cells(100 * 100, Cell::free);
+    for (int r = 0; r < 100; ++r) {
+      for (int c = 45; c < 55 && (r < 30 || r >= 30 + door); ++c)
+        cells[static_cast<std::size_t>(100 * r + c)] = Cell::occupied;
+    }
+    const OccupancyMap map(100, 100, std::move(cells));
+    const InputFit fit = Encoder(spec).encode(map, {10.5, 10.5}, {90.5, 90.5}, image);
+    EXPECT_EQ(fit.size, door < 13 ? 64 : door < 25 ? 32 : 16) << "door of " << door;
+  }
+}
+
 TEST(Encoder, RefusesSizesThatMakeNoSense) {
   InputSpec spec = several_sizes();
   spec.smaller = {32, 16};

@@ -164,11 +164,12 @@ TEST_P(EveryPlanner, TheSameSeedGivesTheSameResult) {
 
 TEST(Planner, TheGridOfNeighboursChangesNothingButTheTime) {
   Random random(57);
-  for (const char* name : {"RRT", "RRTConnect", "RRTstar", "InformedRRTstar", "RRTsharp"}) {
-    for (int i = 0; i < 6; ++i) {
+  for (const char* name : {"RRT", "RRTConnect", "RRTstar", "InformedRRTstar", "RRTsharp", "RRTXstatic"}) {
+    for (int i = 0; i < 9; ++i) {
       const OccupancyMap map = test::random_map(random, 20, 60);
       PlanOptions options = unguided(name);
-      options.iteration_limit = 3000;
+      options.iteration_limit = 1500;
+      options.range = std::array{0.0, 5.0, 10.0}[static_cast<std::size_t>(i % 3)];  // nodes at exactly the range
       options.stop = std::string(name) == "RRT" || std::string(name) == "RRTConnect" ? Stop::first : Stop::limit;
       const PlanRequest request{map, test::random_free_point(map, random), test::random_free_point(map, random)};
       const PlanResult ours = Planner(nullptr, options).plan(request);
@@ -177,6 +178,7 @@ TEST(Planner, TheGridOfNeighboursChangesNothingButTheTime) {
       EXPECT_EQ(ours.status, theirs.status) << name;
       EXPECT_EQ(ours.iterations, theirs.iterations) << name;
       EXPECT_EQ(ours.nodes, theirs.nodes) << name;
+      EXPECT_EQ(ours.motion_checks, theirs.motion_checks) << name;
       EXPECT_EQ(ours.path, theirs.path) << name;
     }
   }

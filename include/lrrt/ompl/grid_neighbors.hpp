@@ -16,18 +16,21 @@ namespace lrrt {
 
 /// Nearest neighbours of a planner's nodes in the plane: a grid of cells about as large as one step of the planner,
 /// each with the nodes in it. A query looks at the cells around it and computes distances itself, where OMPL's trees of
-/// pivots call back for each of them.
+/// pivots call back for each of them. Answers are those of OMPL's structures, to the last bit of a distance. Queries
+/// use a buffer of the structure, so they may not run side by side.
 ///
 /// Motion is a pointer to something with a `state` of RealVectorStateSpace(2).
 template <typename Motion>
 class GridNeighbors final : public ompl::NearestNeighbors<Motion> {
  public:
-  /// @param bounds of the space; nodes outside are kept in the cells at its edge. @param step side of a cell, if the
-  /// grid then has at most most_cells a side.
+  /// @param bounds of the space; nodes outside are kept in the cells at its edge. @param step side of a cell, within
+  /// the least and the most cells that a grid may have.
   GridNeighbors(const ompl::base::RealVectorBounds& bounds, double step) : low_{bounds.low[0], bounds.low[1]} {
     const double width = bounds.high[0] - bounds.low[0];
     const double height = bounds.high[1] - bounds.low[1];
-    side_ = std::max({step, width / most_cells, height / most_cells, std::numeric_limits<double>::min()});
+    const double coarsest = std::max(width, height) / least_cells;
+    side_ = std::max(
+        {std::min(step, coarsest), width / most_cells, height / most_cells, std::numeric_limits<double>::min()});
     columns_ = static_cast<int>(width / side_) + 1;
     rows_ = static_cast<int>(height / side_) + 1;
     cells_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
@@ -95,7 +98,7 @@ class GridNeighbors final : public ompl::NearestNeighbors<Motion> {
       for (int c = column(at.x - radius); c <= last_column; ++c) {
         for (const Node& node : cell(c, r)) {
           const double squared = squared_distance(node.at, at);
-          if (squared <= radius * radius) near.emplace_back(squared, node.motion);
+          if (std::sqrt(squared) <= radius) near.emplace_back(squared, node.motion);
         }
       }
     }
@@ -111,7 +114,8 @@ class GridNeighbors final : public ompl::NearestNeighbors<Motion> {
   }
 
  private:
-  static constexpr double most_cells = 64.0;
+  static constexpr double most_cells = 64.0;  ///< along the longer side
+  static constexpr double least_cells = 16.0;
 
   struct Point {
     double x;

@@ -13,7 +13,7 @@ namespace lrrt {
 
 /// What a network expects of its input picture.
 struct InputSpec {
-  int size = 256;       ///< side of the square input, pixels
+  int size = 256;       ///< side of the square input, pixels; the largest, where there are several
   int marker_side = 5;  ///< side of the start and goal squares, input pixels; a larger map pixel makes a larger square
   Colours colours{};    ///< colours of the picture
   /// Sides, ascending, that take the place of `size` where passages stay at least `least_passage` pixels wide in them.
@@ -55,12 +55,13 @@ struct InputFit {
 /// The picture shows the bounding box of the free component of start and goal plus one pixel, so that a small room in a
 /// large empty scan fills the input. Scaling down averages areas: a thin passage or wall stays visible as grey.
 ///
-/// Where the network takes smaller pictures too, the smallest is used in which every passage keeps its least width: the
-/// time of a prediction goes with the area of the picture.
+/// Where the network takes smaller pictures too, the smallest is used in which every passage keeps its least width,
+/// that is, every free pixel shown lies in a free square of that width: the time of a prediction goes with the area of
+/// the picture. Maps that are shown at less than half their size always take the largest.
 class Encoder {
  public:
-  /// @throws RequestError when a side is below 8 pixels, the marker does not fit into it, or the smaller sides do not
-  /// ascend below `size`.
+  /// @throws RequestError when a side is not within 8 to 8192 pixels, the marker does not fit into it, the smaller
+  /// sides do not ascend below `size`, or the least passage is not within 1 to `size`.
   explicit Encoder(InputSpec spec = {});
 
   const InputSpec& spec() const { return spec_; }

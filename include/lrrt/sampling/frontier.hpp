@@ -36,14 +36,16 @@ struct FrontierOptions {
 /// Motions that turn out free carry the horizon on. Only pixels whose detour over them is short take part, so dead ends
 /// that the region holds are left out. When no motion carries the horizon on, the band widens until it is the whole
 /// region, and the wish for guided draws (`confidence`) fades, so that a wrong region costs little; progress restores
-/// both. Draws take constant time and allocate nothing.
+/// both. Draws take constant time and allocate nothing, but for the one that makes ShortWays.
 ///
 /// Once a path is known, the region has done its job. Half of the draws fall around the path's corners, where small
 /// moves shorten it most (Akgun and Stilman 2011), fewer as the path stops getting shorter; the others wherever a
-/// shorter path could lead (ShortWays), so that a region that led along the wrong side of an obstacle costs little.
+/// shorter path could lead (ShortWays), so that a region that led along the wrong side of an obstacle costs little. At
+/// first, and on maps of more than half a million pixels for good, they fall on the region instead.
 class FrontierStrategy final : public SamplingStrategy {
  public:
-  /// @param map in which the region lies. @param region must be connected: see PromisingRegion::bridged.
+  /// @param map in which the region lies, to look for shorter ways outside it. @param region must be connected: see
+  /// PromisingRegion::bridged.
   /// @param start,goal pixels of the region.
   /// @throws RequestError when the region does not join start and goal, or the step is not positive.
   FrontierStrategy(std::shared_ptr<const OccupancyMap> map, const PromisingRegion& region, Pixel start, Pixel goal,
@@ -76,8 +78,8 @@ class FrontierStrategy final : public SamplingStrategy {
   Eigen::Vector2d draw_for_shorter(Random& random);
   Eigen::Vector2d draw_at_corner(Random& random) const;
   Eigen::Vector2d draw_on_region(Random& random) const;
-  /// Share that fades with the draws that brought nothing.
-  double fading(double patience) const;
+  /// Share that halves with so many draws that brought nothing.
+  double fading(double half_life) const;
   bool inside(Pixel p) const { return p.c >= 0 && p.r >= 0 && p.c < width_ && p.r < height_; }
   std::size_t index(Pixel p) const {
     return static_cast<std::size_t>(p.r) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(p.c);

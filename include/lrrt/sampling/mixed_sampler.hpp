@@ -21,7 +21,7 @@ struct DrawCounts {
 ///
 /// For α < 1 every point of the map keeps a positive density until a path is known, and every point that could shorten
 /// it afterwards, so a planner that is complete and optimal in the limit stays so. α = 1 is allowed, as in the paper,
-/// and gives that up: a path that leaves the region is then never found.
+/// and gives that up: a path that leaves the region may then never be found.
 class MixedSampler {
  public:
   /// @param guided may be null, then every draw is uniform.

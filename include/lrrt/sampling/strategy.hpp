@@ -21,7 +21,8 @@ class SamplingStrategy {
   virtual ~SamplingStrategy() = default;
   /// One random point, pixel coordinates. Allocates nothing.
   virtual Eigen::Vector2d draw(Random& random) = 0;
-  /// True for a point, pixel coordinates, that the strategy could draw: samples near a state are chosen by this.
+  /// True for a point, pixel coordinates, that the strategy could draw before a path is known: samples near a state are
+  /// chosen by this.
   virtual bool contains(const Eigen::Vector2d& point) const = 0;
   /// How much of its share of the draws the strategy wants for itself, in [0, 1].
   virtual double confidence() const { return 1.0; }
