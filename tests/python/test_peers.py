@@ -354,7 +354,7 @@ def test_planners_of_the_wheel_find_free_paths(tmp_path, planner, stop):
     path = np.array(found["path"])
     assert first_collision(read_free(folder / "map_1.png"), path) is None
     assert path[0] == pytest.approx((4.5, 4.5)) and path[-1] == pytest.approx((27.5, 4.5))
-    assert found["length"] >= 36.0 - 1e-6  # the optimum
+    assert found["length"] >= math.hypot(10.5, 13.5) + 1.0 + math.hypot(11.5, 13.5)  # round the wall's two corners
     costs = [cost for _, _, cost, *_ in found["history"]]
     assert costs == sorted(costs, reverse=True) and len(set(costs)) == len(costs)
     assert costs[-1] == pytest.approx(found["length"])

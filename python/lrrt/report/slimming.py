@@ -48,8 +48,8 @@ def slimmed(document: dict[str, Any]) -> dict[str, Any]:
     rows = [{**row, "history": thinned(row["history"])} if row.get("history") else row for row in document["rows"]]
     slim = {**document, "rows": rows}
     if "system" in document.get("machine", {}):  # as "Linux x86_64": the kernel's version says nothing about the times
-        words = document["machine"]["system"].split()
-        slim["machine"] = {**document["machine"], "system": " ".join([words[0], words[-1]])}
+        name, *_, kind = document["machine"]["system"].split() * 2
+        slim["machine"] = {**document["machine"], "system": name if kind == name else f"{name} {kind}"}
     if "folder" in document:
         slim["folder"] = "/".join(_SUITES) if Path(document["folder"]).parts[-2:] == _SUITES else "."
     return slim
