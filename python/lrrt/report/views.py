@@ -105,6 +105,17 @@ def _medians(field: Field) -> Callable[[PlanResults, str], Table]:
     return lambda results, _: _compact(results, _TITLES[field], cell, min)
 
 
+def _slowest(results: PlanResults, choice: str) -> Table:
+    """The time below which so many of all runs had a path; a run without one took longer than any."""
+
+    def cell(runs: list[Run], _: list[Run]) -> _Cell:
+        times = sorted(run.first if run.solved else math.inf for run in runs)
+        time = times[max(0, math.ceil(int(choice) / 100 * len(times)) - 1)]
+        return _Cell(short_number(time), time) if math.isfinite(time) else _Cell("more runs failed")
+
+    return _compact(results, f"{choice} % have a first path, ms", cell, min)
+
+
 def _gain(results: PlanResults, choice: str) -> Table:
     field = _GAINS[choice]
 
@@ -185,6 +196,7 @@ VIEWS: dict[str, View] = {
     "first-path": View(
         "plan", "milliseconds from the call to the first path, everything counted: median", _medians("first")
     ),
+    "slowest": View("plan", "milliseconds after which 90 % of all runs had a path", _slowest, ("90", "100")),
     "search": View("plan", "the planner's share of that", _medians("search")),
     "iterations": View("plan", "iterations of the whole run: median", _medians("iterations")),
     "gain": View("plan", "the baseline's number divided by the row's, paired: median", _gain, tuple(_GAINS)),
