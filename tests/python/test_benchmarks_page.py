@@ -330,7 +330,7 @@ def test_only_steps_that_show_are_drawn():
     ("text", "words"),
     [
         ("<!-- results: nothing facts -->", ["no result 'nothing'", "one of plan, predict"]),
-        ("<!-- results: plan frist-path -->", ["'frist-path'", "first-path, search", "facts, figure:NAME"]),
+        ("<!-- results: plan frist-path -->", ["'frist-path'", "first-path, slowest, search", "facts, figure:NAME"]),
         ("<!-- results: plan predict -->", ["'predict'", "kind plan", "first-path"]),
         ("<!-- results: predict first-path -->", ["'first-path'", "kind predict", "one of predict, facts"]),
         ("<!-- results: plan within:3 -->", ["'within:3'", "within:2, within:10, within:5, within:1"]),
