@@ -192,7 +192,7 @@ def test_export_of_nothing_is_explained(tmp_path):
 def test_export_of_an_impossible_size_is_explained(trained, tmp_path):
     result = call("export", trained, "--output", tmp_path / "m.onnx", "--size", "100")
     assert result.exit_code == 2
-    assert "--size 100: expected a multiple of 32" in words(result.output)
+    assert "side 100: expected a multiple of 32" in words(result.output)
     assert list(tmp_path.iterdir()) == []
 
 
