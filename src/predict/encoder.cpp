@@ -6,6 +6,7 @@
 #include <functional>
 #include <opencv2/imgproc.hpp>
 #include <string>
+#include <utility>
 
 #include "free_pixel.hpp"
 #include "lrrt/error.hpp"
@@ -158,7 +159,7 @@ std::vector<float> InputFit::to_map(const float* plane) const {
   return result;
 }
 
-Encoder::Encoder(InputSpec spec) : spec_(spec) {
+Encoder::Encoder(InputSpec spec) : spec_(std::move(spec)) {
   std::vector<int> sides = spec_.smaller;
   sides.push_back(spec_.size);
   for (const int side : sides) {
