@@ -58,6 +58,14 @@ Neighbors neighbors_from_string(const std::string& word) {
   return from_word("neighbors", word, table);
 }
 
+Motion motion_from_string(const std::string& word) {
+  constexpr std::array<std::pair<const char*, Motion>, 4> table = {{{"plane", Motion::plane},
+                                                                    {"turning", Motion::turning},
+                                                                    {"dubins", Motion::dubins},
+                                                                    {"reeds_shepp", Motion::reeds_shepp}}};
+  return from_word("motion", word, table);
+}
+
 Stop stop_from_string(const std::string& word) {
   constexpr std::array<std::pair<const char*, Stop>, 3> table = {
       {{"first", Stop::first}, {"factor", Stop::factor}, {"limit", Stop::limit}}};

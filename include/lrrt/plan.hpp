@@ -7,10 +7,12 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "lrrt/map/occupancy_map.hpp"
+#include "lrrt/map/polygon.hpp"
 #include "lrrt/region/promising_region.hpp"
 #include "lrrt/sampling/mixed_sampler.hpp"
 
@@ -61,6 +63,17 @@ enum class Neighbors {
 /// @throws RequestError for an unknown word; the text lists the known ones.
 Neighbors neighbors_from_string(const std::string& word);
 
+/// How the robot moves.
+enum class Motion {
+  plane,        ///< a point or a disc on straight lines, without a heading
+  turning,      ///< straight lines on which it turns evenly, also on the spot: OMPL's SE(2)
+  dubins,       ///< forwards only, on arcs of the turning radius and straight lines
+  reeds_shepp,  ///< the same, forwards and backwards
+};
+
+/// @throws RequestError for an unknown word; the text lists the known ones.
+Motion motion_from_string(const std::string& word);
+
 /// Lets another thread end a search. Copies share one flag, and a flag that was raised stays up: one token, one search.
 class CancelToken {
  public:
@@ -74,11 +87,17 @@ class CancelToken {
 /// What to plan. The map is only looked at: it must outlive the call.
 struct PlanRequest {
   std::reference_wrapper<const OccupancyMap> map;
-  Eigen::Vector2d start;                    ///< map units
-  Eigen::Vector2d goal;                     ///< map units
-  double radius = 0.0;                      ///< of a disc-shaped robot, map units; 0 plans for a point
+  Eigen::Vector2d start;  ///< map units
+  Eigen::Vector2d goal;   ///< map units
+  double radius = 0.0;    ///< of a disc-shaped robot, map units; 0 for a point. With an outline: a margin around it
   UnknownIs unknown = UnknownIs::occupied;  ///< whether the robot may enter unknown pixels
   CancelToken cancel{};                     ///< ends the search from another thread
+  /// The robot's outline in its own frame, map units; its reference point, the origin, must lie inside or on it.
+  std::optional<Polygon> outline{};
+  Motion motion = Motion::plane;
+  double turning_radius = 0.0;  ///< tightest one, map units; for Motion::dubins and Motion::reeds_shepp
+  double start_heading = 0.0;   ///< radians from the map's x axis towards its y axis; not for Motion::plane
+  double goal_heading = 0.0;    ///< the same
 };
 
 /// How to plan.
@@ -90,13 +109,14 @@ struct PlanOptions {
   double goal_bias = 0.05;      ///< share of iterations that aim at the goal (RRT and RRT*)
   double goal_tolerance = 0.0;  ///< the path may end this far from the goal, map units; 0 ends exactly there
   Stop stop = Stop::first;
-  /// For Stop::factor. The reference is the shortest grid path, straightened by line of sight.
+  /// For Stop::factor. The reference is the shortest grid path of the reference point, straightened by line of sight.
   double cost_factor = 1.05;
   double time_limit = 5.0;  ///< seconds of planning, prediction not counted
   std::size_t iteration_limit = std::numeric_limits<std::size_t>::max();
   std::uint64_t seed = 1;                 ///< same seed, same result on one thread (unless time ends the search)
   bool keep_tree = false;                 ///< return the tree's edges
   Neighbors neighbors = Neighbors::grid;  ///< time only: the result is the same
+  bool simplify = false;                  ///< spend what is left of the time limit on shortening the path at the end
 };
 
 /// Wall-clock time of each stage, milliseconds.
@@ -114,7 +134,7 @@ struct PlanTimings {
 struct CostStep {
   double time = 0.0;  ///< milliseconds since the search began
   std::size_t iteration = 0;
-  double cost = 0.0;  ///< length, map units
+  double cost = 0.0;  ///< as PlanResult::cost
 };
 
 /// One edge of the tree, map units.
@@ -126,15 +146,20 @@ struct TreeEdge {
 /// What came out.
 struct PlanResult {
   PlanStatus status = PlanStatus::time_limit;
-  std::vector<Eigen::Vector2d> path;                      ///< map units, from start to goal; empty unless solved
-  double cost = std::numeric_limits<double>::infinity();  ///< length of the path, map units
-  std::size_t iterations = 0;                             ///< iterations of the planner
-  std::size_t nodes = 0;                                  ///< nodes in its tree
-  std::size_t motion_checks = 0;                          ///< motions that were checked for collisions
-  DrawCounts draws{};                                     ///< samples drawn from the region and uniformly
-  std::vector<CostStep> cost_history;                     ///< strictly falling costs (RRT*)
-  std::vector<TreeEdge> tree;                             ///< only with PlanOptions::keep_tree
-  std::shared_ptr<const PromisingRegion> region;          ///< the region that was used
+  /// Map units, from start to goal; empty unless solved. In the plane the corners of the path; else poses along the
+  /// true curve, between which no point of the robot moves farther than about a pixel.
+  std::vector<Eigen::Vector2d> path;
+  std::vector<double> headings;  ///< radians in [-π, π), one for each point of the path; empty in the plane
+  /// Length of the path, map units: of its straight lines and arcs. For Motion::turning plus the angle that the robot
+  /// turns times the distance from its reference point to its farthest one (at least a pixel).
+  double cost = std::numeric_limits<double>::infinity();
+  std::size_t iterations = 0;                     ///< iterations of the planner
+  std::size_t nodes = 0;                          ///< nodes in its tree
+  std::size_t motion_checks = 0;                  ///< motions that were checked for collisions
+  DrawCounts draws{};                             ///< samples drawn from the region and uniformly
+  std::vector<CostStep> cost_history;             ///< strictly falling costs (RRT*)
+  std::vector<TreeEdge> tree;                     ///< only with PlanOptions::keep_tree; straight, also for arcs
+  std::shared_ptr<const PromisingRegion> region;  ///< the region that was used
   PlanTimings timings{};
 
   bool solved() const { return status == PlanStatus::solved; }

@@ -54,6 +54,12 @@ def plan(
     keep_tree: bool = False,
     neighbors: str = "grid",
     cancel: CancelToken | None = None,
+    outline: Sequence[Point] | npt.NDArray[np.floating[Any]] | None = None,
+    motion: str = "plane",
+    turning_radius: float = 0.0,
+    start_heading: float = 0.0,
+    goal_heading: float = 0.0,
+    simplify: bool = False,
 ) -> PlanResult:
     """Plans a path from start to goal, guided by the promising region that a network marks.
 
@@ -77,16 +83,26 @@ def plan(
         range: longest extension of the tree; 0 chooses by the map.
         goal_bias: share of iterations that aim at the goal (RRT, RRT*).
         goal_tolerance: the path may end this far from the goal; 0 ends exactly there.
-        radius: of a disc-shaped robot; 0 plans for a point.
+        radius: of a disc-shaped robot; 0 plans for a point. With an outline: a margin around it.
         unknown: ``"occupied"`` or ``"free"``: what unknown pixels count as.
         seed: same seed, same result, unless time ends the search.
         keep_tree: fill ``result.tree``.
         neighbors: what finds the near nodes of a tree: ``"grid"``, ours, or ``"ompl"``, what OMPL itself takes; a
             matter of time only.
         cancel: a token that another thread may use to end the search.
+        outline: corners (x, y) of the robot in its own frame, heading along +x, the reference point at the origin and
+            inside; convex or concave. None for a disc or a point.
+        motion: ``"plane"``, straight lines without a heading; ``"turning"``, straight lines on which the robot turns,
+            also on the spot; ``"dubins"``, forwards on arcs and straight lines; ``"reeds_shepp"``, the same forwards
+            and backwards. All but the plane fill ``result.headings``; the cost is then the length of the arcs and
+            lines, for ``"turning"`` plus the angle turned times the distance to the robot's farthest corner.
+        turning_radius: the tightest one, for ``"dubins"`` and ``"reeds_shepp"``.
+        start_heading: radians from the map's x axis towards its y axis.
+        goal_heading: the same.
+        simplify: shorten the path at the end, within what is left of the time limit.
 
     Raises:
-        RequestError: an option is out of its range, or a coordinate is not finite.
+        RequestError: an option is out of its range, a coordinate is not finite, or the robot cannot move as asked.
         ModelError: the model cannot be loaded or fails.
     """
     if predictor is None and strategy != "uniform":
@@ -112,4 +128,10 @@ def plan(
         keep_tree=keep_tree,
         neighbors=neighbors,
         cancel=cancel,
+        outline=None if outline is None else [np.asarray(corner, dtype=np.float64) for corner in outline],
+        motion=motion,
+        turning_radius=turning_radius,
+        start_heading=start_heading,
+        goal_heading=goal_heading,
+        simplify=simplify,
     )

@@ -43,7 +43,9 @@ PlanResult plan(const OccupancyMap& map, const Eigen::Vector2d& start, const Eig
                 const std::optional<std::shared_ptr<RegionPredictor>>& predictor, const std::string& stop,
                 double cost_factor, double time_limit, std::optional<std::size_t> iteration_limit, double range,
                 double goal_bias, double goal_tolerance, double radius, const std::string& unknown, std::uint64_t seed,
-                bool keep_tree, const std::string& neighbors, const std::optional<CancelToken>& cancel) {
+                bool keep_tree, const std::string& neighbors, const std::optional<CancelToken>& cancel,
+                const std::optional<std::vector<Eigen::Vector2d>>& outline, const std::string& motion,
+                double turning_radius, double start_heading, double goal_heading, bool simplify) {
   PlanOptions options;
   options.planner = planner;
   options.strategy = strategy_from_string(strategy);
@@ -58,8 +60,14 @@ PlanResult plan(const OccupancyMap& map, const Eigen::Vector2d& start, const Eig
   options.seed = seed;
   options.keep_tree = keep_tree;
   options.neighbors = neighbors_from_string(neighbors);
+  options.simplify = simplify;
   PlanRequest request{map, start, goal, radius, unknown_from(unknown)};
   if (cancel) request.cancel = *cancel;
+  if (outline) request.outline.emplace(*outline);
+  request.motion = motion_from_string(motion);
+  request.turning_radius = turning_radius;
+  request.start_heading = start_heading;
+  request.goal_heading = goal_heading;
   return plan_interruptibly(Planner(predictor.value_or(nullptr), options), request);
 }
 
@@ -113,8 +121,13 @@ void bind_result(py::module_& module) {
       .def_property_readonly("solved", &PlanResult::solved, "True when a free path was found.")
       .def_property_readonly(
           "path", [](const PlanResult& r) { return points_array(r.path); },
-          "(N, 2) float64, map units, from start to goal; (0, 2) unless solved.")
-      .def_readonly("cost", &PlanResult::cost, "Length of the path, map units; inf unless solved.")
+          "(N, 2) float64, map units, from start to goal; (0, 2) unless solved. Corners in the plane, else a point "
+          "for about every pixel of motion.")
+      .def_property_readonly(
+          "headings",
+          [](const PlanResult& r) { return to_array(r.headings, {static_cast<py::ssize_t>(r.headings.size())}); },
+          "(N,) float64, radians in [-pi, pi) from the map's x axis towards its y axis; (0,) in the plane.")
+      .def_readonly("cost", &PlanResult::cost, "Length of the path, map units, see plan(); inf unless solved.")
       .def_readonly("iterations", &PlanResult::iterations, "Iterations of the planner.")
       .def_readonly("nodes", &PlanResult::nodes, "Nodes in the planner's tree.")
       .def_readonly("motion_checks", &PlanResult::motion_checks, "Motions that were checked for collisions.")
@@ -155,6 +168,8 @@ void bind_planner(py::module_& module) {
              py::arg("goal_bias") = defaults.goal_bias, py::arg("goal_tolerance") = defaults.goal_tolerance,
              py::arg("radius") = 0.0, py::arg("unknown") = "occupied", py::arg("seed") = defaults.seed,
              py::arg("keep_tree") = false, py::arg("neighbors") = "grid", py::arg("cancel") = py::none(),
+             py::arg("outline") = py::none(), py::arg("motion") = "plane", py::arg("turning_radius") = 0.0,
+             py::arg("start_heading") = 0.0, py::arg("goal_heading") = 0.0, py::arg("simplify") = false,
              "Plans a path. See lrrt.plan, which adds the default predictor.");
 }
 

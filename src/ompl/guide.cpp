@@ -138,7 +138,7 @@ std::shared_ptr<GuidedSource> guide(ob::Planner& planner, const std::shared_ptr<
                                     const PromisingRegion& region, const GuideOptions& options,
                                     std::shared_ptr<const MapProjection> projection) {
   check(planner);
-  if (!projection) projection = std::make_shared<PlaneProjection>();
+  if (!projection) projection = projection_of(*planner.getSpaceInformation()->getStateSpace());
   const ob::ProblemDefinition& problem = *planner.getProblemDefinition();
   return guide(planner, map,
                make_sampler(map, region, projection->read(problem.getStartState(0)),

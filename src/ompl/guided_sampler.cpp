@@ -4,11 +4,24 @@
 #include <ompl/base/SpaceInformation.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 namespace lrrt {
 
 namespace ob = ompl::base;
+
+namespace {
+
+/// Share of the guided states that look along the way to the goal, how far off it they look at most, and the share of
+/// those that look back where the robot can reverse.
+constexpr double aligned_share = 0.75;
+constexpr double spread = 0.5235987755982988;  // 30°
+constexpr double backwards_share = 0.1;
+constexpr double pi = 3.141592653589793;
+
+}  // namespace
 
 GuidedValidStateSampler::GuidedValidStateSampler(const ob::SpaceInformation* si, std::shared_ptr<GuidedSource> source)
     : ob::ValidStateSampler(si), source_(std::move(source)), uniform_(si->getStateSpace()->allocDefaultStateSampler()) {
@@ -70,19 +83,56 @@ bool ObservingMotionValidator::checkMotion(const ob::State* from, const ob::Stat
   return noted(inner_->checkMotion(from, to, last_valid), from, to);
 }
 
+void GuidedSource::write_whole(const Eigen::Vector2d& point, ob::State* state) {
+  projection_->write(map_->map().to_world(point), state);
+  if (projection_->has_heading()) projection_->write_heading(2.0 * pi * sampler_.draw_number(), state);
+}
+
+void GuidedSource::write(const Eigen::Vector2d& point, ob::State* state, ob::StateSampler& other) {
+  if (projection_->is_whole_state()) {
+    write_whole(point, state);
+  } else {
+    other.sampleUniform(state);
+    projection_->write(map_->map().to_world(point), state);
+  }
+}
+
+void GuidedSource::place(ob::State* state, ob::StateSampler& other) {
+  const bool guided = sampler_.wants_guided();
+  sampler_.count(guided);
+  guided ? place_guided(state, other) : write(sampler_.draw_uniform(), state, other);
+}
+
+void GuidedSource::place_guided(ob::State* state, ob::StateSampler& other) {
+  const Eigen::Vector2d point = sampler_.draw_guided();
+  write(point, state, other);
+  if (projection_->has_heading()) align(point, state);
+}
+
+void GuidedSource::align(const Eigen::Vector2d& point, ob::State* state) {
+  if (sampler_.draw_number() >= aligned_share) return;
+  const std::optional<Eigen::Vector2d> direction = sampler_.direction(point);
+  if (!direction) return;
+  const Eigen::Vector2d ahead = map_->map().to_world(point + *direction) - map_->map().to_world(point);
+  double heading = std::atan2(ahead.y(), ahead.x()) + spread * (2.0 * sampler_.draw_number() - 1.0);
+  if (projection_->can_reverse() && sampler_.draw_number() < backwards_share) heading += pi;
+  projection_->write_heading(heading, state);
+}
+
 void GuidedSource::place_near(ob::State* state, const ob::State* near, double distance, ob::StateSampler& other) {
   if (!projection_->is_whole_state()) {
     other.sampleUniformNear(state, near, distance);
     return;
   }
   const double reach = distance / map_->map().resolution();
-  projection_->write(map_->map().to_world(sampler_.draw_near(pixel_point(near), reach)), state);
+  const double heading = projection_->read_heading(near);
+  write_whole(sampler_.draw_near(pixel_point(near), reach), state);
+  if (projection_->has_heading()) projection_->write_heading(heading + pi * (sampler_.draw_number() - 0.5), state);
 }
 
 bool GuidedSource::place_informed(ob::State* state, double length) {
   if (!projection_->is_whole_state()) return false;
-  const Eigen::Vector2d point = sampler_.draw_informed(start_, goal_, length / map_->map().resolution());
-  projection_->write(map_->map().to_world(point), state);
+  write_whole(sampler_.draw_informed(start_, goal_, length / map_->map().resolution()), state);
   return true;
 }
 

@@ -4,8 +4,6 @@
 #include <ompl/base/PlannerData.h>
 #include <ompl/base/goals/GoalState.h>
 #include <ompl/base/objectives/PathLengthOptimizationObjective.h>
-#include <ompl/base/spaces/RealVectorStateSpace.h>
-#include <ompl/geometric/PathGeometric.h>
 
 #include <algorithm>
 #include <limits>
@@ -14,26 +12,13 @@
 #include "lrrt/error.hpp"
 #include "lrrt/map/shortest_path.hpp"
 #include "lrrt/ompl/guide.hpp"
+#include "lrrt/ompl/shorten.hpp"
 
 namespace lrrt {
 namespace {
 
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
-
-ob::StateSpacePtr plane_over(const OccupancyMap& map) {
-  auto space = std::make_shared<ob::RealVectorStateSpace>(2);
-  const Bounds box = map.bounds();
-  // A hair wider, so that a point on the map's edge is not lost to the rounding of its conversion.
-  const double slack = 1e-9 * map.resolution();
-  ob::RealVectorBounds bounds(2);
-  for (unsigned int axis = 0; axis < 2; ++axis) {
-    bounds.setLow(axis, box.low[axis] - slack);
-    bounds.setHigh(axis, box.high[axis] + slack);
-  }
-  space->setBounds(bounds);
-  return space;
-}
 
 /// Straightens a pixel path by line of sight between the exact ends. @return its length, map units.
 double line_of_sight_length(const CollisionMap& map, const std::vector<Pixel>& path, const Eigen::Vector2d& start,
@@ -51,37 +36,29 @@ std::uint32_t planner_seed(std::uint64_t seed) {
 
 }  // namespace
 
-MapSearch::MapSearch(std::shared_ptr<const CollisionMap> map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
-                     MixedSampler sampler, const PlanOptions& options, CancelToken cancel)
-    : map_(std::move(map)),
-      start_(start),
-      goal_(goal),
-      options_(options),
-      projection_(std::make_shared<PlaneProjection>()),
-      limits_(std::make_shared<SearchLimits>(options.time_limit, options.iteration_limit, std::move(cancel))) {
-  const ob::StateSpacePtr space = plane_over(map_->map());
-  si_ = std::make_shared<ob::SpaceInformation>(space);
-  si_->setStateValidityChecker(std::make_shared<MapValidityChecker>(si_, map_, projection_));
-  si_->setMotionValidator(std::make_shared<MapMotionValidator>(si_, map_, projection_, limits_));
-  si_->setup();
-
-  ob::ScopedState<> first(space);
-  ob::ScopedState<> last(space);
-  projection_->write(start_, first.get());
-  projection_->write(goal_, last.get());
-  problem_ = std::make_shared<ob::ProblemDefinition>(si_);
-  problem_->setStartAndGoalStates(first, last,
+MapSearch::MapSearch(SearchSpace space, const Pose2& start, const Pose2& goal, MixedSampler sampler,
+                     const PlanOptions& options, std::shared_ptr<SearchLimits> limits)
+    : space_(std::move(space)), options_(options), limits_(std::move(limits)) {
+  problem_ = std::make_shared<ob::ProblemDefinition>(space_.si);
+  problem_->setStartAndGoalStates(state_at(start), state_at(goal),
                                   std::max(options_.goal_tolerance, std::numeric_limits<double>::epsilon()));
-  const auto objective = std::make_shared<ob::PathLengthOptimizationObjective>(si_);
+  const auto objective = std::make_shared<ob::PathLengthOptimizationObjective>(space_.si);
   objective->setCostThreshold(target_cost());
   problem_->setOptimizationObjective(objective);
 
   planner_ = make_planner(
-      options_.planner, si_,
+      options_.planner, space_.si,
       {options_.range, options_.goal_bias, planner_seed(options_.seed), options_.neighbors == Neighbors::grid});
   planner_.planner->setProblemDefinition(problem_);
-  source_ = guide(*planner_.planner, map_, std::move(sampler), projection_);
+  source_ = guide(*planner_.planner, space_.map, std::move(sampler), space_.projection);
   planner_.planner->setup();
+}
+
+ob::ScopedState<> MapSearch::state_at(const Pose2& pose) const {
+  ob::ScopedState<> state(space_.si);
+  space_.projection->write({pose.x, pose.y}, state.get());
+  if (space_.projection->has_heading()) space_.projection->write_heading(pose.yaw, state.get());
+  return state;
 }
 
 ob::Cost MapSearch::target_cost() const {
@@ -97,10 +74,12 @@ ob::Cost MapSearch::target_cost() const {
 }
 
 double MapSearch::reference_cost() const {
-  const OccupancyMap& map = map_->map();
+  const OccupancyMap& map = space_.map->map();
+  const Eigen::Vector2d start = space_.projection->read(problem_->getStartState(0));
+  const Eigen::Vector2d goal = space_.projection->read(problem_->getGoal()->as<ob::GoalState>()->getState());
   const std::vector<Pixel> path =
-      shortest_path(map, OccupancyMap::pixel_of(map.to_pixel(start_)), OccupancyMap::pixel_of(map.to_pixel(goal_)));
-  return line_of_sight_length(*map_, path, start_, goal_);
+      shortest_path(map, OccupancyMap::pixel_of(map.to_pixel(start)), OccupancyMap::pixel_of(map.to_pixel(goal)));
+  return line_of_sight_length(*space_.map, path, start, goal);
 }
 
 void MapSearch::run(PlanResult& result) {
@@ -135,24 +114,53 @@ void MapSearch::record_costs(PlanResult& result) {
       });
 }
 
+std::optional<Trace> MapSearch::traced(og::PathGeometric& path) const {
+  const std::vector<ob::State*>& states = path.getStates();
+  Trace trace;
+  trace.points.push_back(space_.projection->read(states.front()));
+  if (space_.projection->has_heading()) trace.headings.push_back(space_.projection->read_heading(states.front()));
+  for (std::size_t i = 1; i < states.size(); ++i) {
+    if (!space_.follow(states[i - 1], states[i], trace)) return std::nullopt;
+  }
+  return trace;
+}
+
+std::optional<Trace> MapSearch::shortened(og::PathGeometric& path) const {
+  og::PathGeometric shorter(path);
+  const ob::PlannerTerminationCondition stop([this] { return limits_->interrupted(); });
+  shorten(shorter, stop, planner_seed(options_.seed));
+  if (!(shorter.length() < path.length())) return std::nullopt;
+  std::optional<Trace> trace = traced(shorter);
+  if (trace) path = shorter;
+  return trace;
+}
+
 void MapSearch::read_path(PlanResult& result) const {
   auto& path = *problem_->getSolutionPath()->as<og::PathGeometric>();
+  std::optional<Trace> trace;
+  if (options_.simplify) trace = shortened(path);
+  if (!trace) trace = traced(path);
+  if (!trace) {
+    throw Error("OMPL's planner " + options_.planner + " returned a path that is not free: choose another planner");
+  }
   result.status = PlanStatus::solved;
-  for (const ob::State* state : path.getStates()) result.path.push_back(projection_->read(state));
-  result.cost = path_length(result.path);
+  result.path = std::move(trace->points);
+  result.headings = std::move(trace->headings);
+  result.cost = path.length();
+  result.timings.plan = limits_->elapsed_ms();
   const bool better = result.cost_history.empty() || result.cost < result.cost_history.back().cost;
   if (better) result.cost_history.push_back({result.timings.plan, limits_->iterations(), result.cost});
 }
 
 void MapSearch::read_tree(PlanResult& result) const {
-  ob::PlannerData data(si_);
+  ob::PlannerData data(space_.si);
   planner_.planner->getPlannerData(data);
   std::vector<unsigned int> children;
   for (unsigned int parent = 0; parent < data.numVertices(); ++parent) {
     data.getEdges(parent, children);
-    const Eigen::Vector2d from = projection_->read(data.getVertex(parent).getState());
+    const Eigen::Vector2d from = space_.projection->read(data.getVertex(parent).getState());
     for (const unsigned int child : children) {
-      result.tree.push_back({from, projection_->read(data.getVertex(child).getState())});
+      result.tree.push_back({from, space_.projection->read(data.getVertex(child).getState())});
     }
   }
   // OMPL lists nodes in the order of its neighbour structure, which draws its pivots at random.

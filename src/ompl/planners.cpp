@@ -48,6 +48,11 @@ template <typename Planner>
 constexpr bool has_two_trees = is_a<Planner, og::RRTConnect, og::BiTRRT>;
 template <typename Planner>
 constexpr bool has_range = !is_a<Planner, og::BITstar, og::AITstar, og::FMT, og::PRM, og::LazyPRM>;
+/// BIT* and its kin keep directions, but may draw samples without end where the least cost, a Dubins distance, is far
+/// more than the straight line by which OMPL's informed sampler judges them. Informed RRT* prunes by a metric.
+template <typename Planner>
+constexpr bool has_directed_edges =
+    !is_a<Planner, og::PRM, og::LazyPRM, og::BiEST, og::RRTXstatic, og::BITstar, og::AITstar, og::InformedRRTstar>;
 template <typename Planner>
 constexpr bool has_goal_bias = is_a<Planner, og::RRT, og::RRTstar, og::RRTXstatic, og::TRRT, og::EST, og::SST>;
 
@@ -106,13 +111,14 @@ MapPlanner make(const ob::SpaceInformationPtr& si, const PlannerSettings& settin
 
 struct Entry {
   MapPlanner (*maker)(const ob::SpaceInformationPtr&, const PlannerSettings&);
-  bool shortens;      ///< goes on after its first path to shorten it
-  bool aims_at_goal;  ///< reaches the goal only because some iterations aim at it
+  bool shortens;         ///< goes on after its first path to shorten it
+  bool keeps_direction;  ///< checks every motion in the direction in which it is used
+  bool aims_at_goal;     ///< reaches the goal only because some iterations aim at it
 };
 
 template <typename Planner>
 constexpr Entry describe(bool shortens) {
-  return {&make<Planner>, shortens, has_goal_bias<Planner>};
+  return {&make<Planner>, shortens, has_directed_edges<Planner>, has_goal_bias<Planner>};
 }
 
 const std::map<std::string, Entry>& table() {
@@ -170,6 +176,10 @@ bool shortens_its_path(const std::string& name) {
 
 bool needs_goal_bias(const std::string& name) {
   return entry(name).aims_at_goal;
+}
+
+bool keeps_direction(const std::string& name) {
+  return entry(name).keeps_direction;
 }
 
 MapPlanner make_planner(const std::string& name, const ob::SpaceInformationPtr& si, const PlannerSettings& settings) {

@@ -7,8 +7,6 @@
 namespace lrrt {
 namespace {
 
-constexpr std::int32_t straight = 5;
-constexpr std::int32_t diagonal = 7;
 /// One more than the longest step: pixels that wait never lie farther apart.
 constexpr std::size_t bucket_count = 8;
 

@@ -37,6 +37,20 @@ constexpr std::size_t most_pixels = std::size_t{1} << 19U;
 /// Before that: tries for a pixel of the region that could shorten the path.
 constexpr int most_tries = 8;
 constexpr double tau = 6.283185307179586;
+/// How far ahead a direction looks, pixels: single steps go eight ways only, and a far look leads through walls.
+constexpr double least_look = 4.0;
+constexpr double most_look = 12.0;
+
+/// The next pixel on a shortest way to the source of the distances; the pixel itself at the source.
+Pixel step_towards_source(const Geodesic& distances, Pixel from) {
+  const std::int32_t here = distances.at(from);
+  for (int k = 0; k < 9; ++k) {
+    const Pixel to{from.c + k % 3 - 1, from.r + k / 3 - 1};
+    const std::int32_t cost = k % 2 == 0 ? Geodesic::diagonal : Geodesic::straight;
+    if (k != 4 && distances.at(to) != Geodesic::unreached && distances.at(to) + cost == here) return to;
+  }
+  return from;
+}
 
 }  // namespace
 
@@ -148,6 +162,20 @@ Eigen::Vector2d FrontierStrategy::draw_on_region(Random& random) const {
 
 bool FrontierStrategy::contains(const Eigen::Vector2d& point) const {
   return fronts_[0].to_other.at(OccupancyMap::pixel_of(point)) != Geodesic::unreached;
+}
+
+std::optional<Eigen::Vector2d> FrontierStrategy::direction(const Eigen::Vector2d& point) const {
+  const Geodesic& to_goal = fronts_[0].to_other;
+  Pixel at = OccupancyMap::pixel_of(point);
+  if (to_goal.at(at) == Geodesic::unreached) return std::nullopt;
+  for (double walked = 0.0; walked < std::clamp(step_, least_look, most_look); ++walked) {
+    const Pixel next = step_towards_source(to_goal, at);
+    if (next == at) break;
+    at = next;
+  }
+  const Eigen::Vector2d ahead = Eigen::Vector2d(at.c + 0.5, at.r + 0.5) - point;
+  if (ahead.squaredNorm() == 0.0) return std::nullopt;
+  return ahead;
 }
 
 bool FrontierStrategy::improved(const std::vector<Eigen::Vector2d>& path, double length) {

@@ -225,3 +225,37 @@ def test_more_time_shortens_the_path():
     assert math.hypot(49, 49) <= longer.cost < first.cost
     near = lrrt.plan(OPEN, (1, 1), (50, 50), strategy="uniform", stop="factor", cost_factor=1.1)
     assert near.cost <= 1.1 * math.hypot(49, 49) + 1e-6
+
+
+@pytest.mark.parametrize("motion", ["turning", "dubins", "reeds_shepp"])
+def test_a_robot_with_an_outline_gets_headings(motion: str) -> None:
+    outline = [(-1.0, -1.0), (3.0, -1.0), (3.0, 1.0), (-1.0, 1.0)]
+    result = lrrt.plan(
+        OPEN,
+        (10, 10),
+        (50, 40),
+        strategy="uniform",
+        planner="RRTConnect",
+        outline=outline,
+        motion=motion,
+        turning_radius=4.0,
+        start_heading=0.5,
+        goal_heading=-2.0,
+        simplify=True,
+    )
+    assert result.solved
+    assert result.headings.shape == (len(result.path),)
+    assert result.path[0].tolist() == [10, 10] and result.path[-1].tolist() == [50, 40]
+    assert result.headings[0] == 0.5 and result.headings[-1] == -2.0
+    steps = np.linalg.norm(np.diff(result.path, axis=0), axis=1)
+    assert steps.max() <= 1 + 1e-6
+    assert result.cost >= steps.sum() - 1e-6
+
+
+def test_an_outline_needs_headings() -> None:
+    square = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
+    with pytest.raises(lrrt.RequestError, match="turning"):
+        lrrt.plan(OPEN, (10, 10), (50, 40), strategy="uniform", outline=square)
+    with pytest.raises(lrrt.RequestError, match="motion"):
+        lrrt.plan(OPEN, (10, 10), (50, 40), strategy="uniform", motion="flying")
+    assert lrrt.plan(OPEN, (10, 10), (50, 40), strategy="uniform").headings.shape == (0,)

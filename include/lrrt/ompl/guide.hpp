@@ -45,7 +45,8 @@ MixedSampler make_sampler(const std::shared_ptr<const CollisionMap>& map, const 
 /// no objective, it gets that of the path's length, OMPL's own default.
 ///
 /// @param map where the robot's reference point may be: for a robot with a body, inflated by what it needs at least.
-/// @param region of the same size. @param projection how the planner's states touch the map.
+/// @param region of the same size. @param projection how the planner's states touch the map; by default
+/// projection_of() its space.
 /// @return the source of the samples; its counts tell how many were guided.
 /// @throws RequestError for a planner that cannot be guided (it would plan unguided without a word), that is set up
 /// already or has no problem, and for a start or goal that does not lie on a free pixel of the map.

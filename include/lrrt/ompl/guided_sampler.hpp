@@ -17,6 +17,10 @@ namespace lrrt {
 
 /// Where guided states come from: points of the map drawn by a MixedSampler, brought to map units. One source may feed
 /// several samplers of the same planner, so that its counts cover them all. Not for concurrent use.
+///
+/// In spaces whose states have a heading most guided states look along the region towards the goal, as far as the
+/// strategy knows the way, with a spread; where the robot can reverse some look back. The others look anywhere, so that
+/// every pose keeps a positive density.
 class GuidedSource {
  public:
   /// @param start,goal map units.
@@ -29,13 +33,11 @@ class GuidedSource {
         start_(map_->map().to_pixel(start)),
         goal_(map_->map().to_pixel(goal)) {}
 
-  /// The next state: its position from the sampler, its other coordinates from OMPL's own one.
-  void place(ompl::base::State* state, ompl::base::StateSampler& other) { write(sampler_.draw(), state, other); }
+  /// The next state: position and heading from the sampler, its other coordinates from OMPL's own one.
+  void place(ompl::base::State* state, ompl::base::StateSampler& other);
   /// A guided state, not counted.
-  void place_guided(ompl::base::State* state, ompl::base::StateSampler& other) {
-    write(sampler_.draw_guided(), state, other);
-  }
-  /// A state near another one. In the plane the source draws it itself, so that the seed decides it.
+  void place_guided(ompl::base::State* state, ompl::base::StateSampler& other);
+  /// A state near another one. Where position and heading are all, the source draws them, so that the seed decides.
   void place_near(ompl::base::State* state, const ompl::base::State* near, double distance,
                   ompl::base::StateSampler& other);
   /// A uniform state over which a path could be shorter than `length` (map units, infinite for any), drawn by the
@@ -61,10 +63,12 @@ class GuidedSource {
   Eigen::Vector2d pixel_point(const ompl::base::State* state) const {
     return map_->map().to_pixel(projection_->read(state));
   }
-  void write(const Eigen::Vector2d& point, ompl::base::State* state, ompl::base::StateSampler& other) {
-    if (!projection_->is_whole_state()) other.sampleUniform(state);
-    projection_->write(map_->map().to_world(point), state);
-  }
+  /// Moves a state to a point, pixel coordinates, and its other coordinates anywhere.
+  void write(const Eigen::Vector2d& point, ompl::base::State* state, ompl::base::StateSampler& other);
+  /// Moves a state whose position and heading are all to a point, pixel coordinates, and turns it anywhere.
+  void write_whole(const Eigen::Vector2d& point, ompl::base::State* state);
+  /// Turns a guided state at a point, pixel coordinates, to the way on from there, more often than not.
+  void align(const Eigen::Vector2d& point, ompl::base::State* state);
 
   std::shared_ptr<const CollisionMap> map_;
   MixedSampler sampler_;

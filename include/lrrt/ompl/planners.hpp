@@ -37,6 +37,10 @@ bool shortens_its_path(const std::string& name);
 /// True for a planner that reaches its goal only because some iterations aim at it. @throws RequestError as above.
 bool needs_goal_bias(const std::string& name);
 
+/// True for a planner that may plan where the way back is another one (Dubins): it checks every motion in the direction
+/// in which its path uses it, and copes with distances that are not symmetric. @throws RequestError as above.
+bool keeps_direction(const std::string& name);
+
 /// Makes an OMPL planner by name. RRT* and its kin rewire within a shrinking disc (Karaman and Frazzoli 2011), as the
 /// paper's does.
 /// @throws RequestError as check_planner_name().

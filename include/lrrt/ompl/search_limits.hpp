@@ -35,6 +35,12 @@ class SearchLimits {
     return interrupted_;
   }
 
+  /// True once time is over or the caller gave up; looks at the clock.
+  bool interrupted() {
+    if (!interrupted_ && (cancel_.cancelled() || watch_.total_ms() >= limit_ms_)) interrupted_ = true;
+    return interrupted_;
+  }
+
   std::size_t iterations() const { return iterations_; }
   double elapsed_ms() const { return watch_.total_ms(); }
 
@@ -45,11 +51,6 @@ class SearchLimits {
   }
 
  private:
-  bool interrupted() {
-    if (!interrupted_ && (cancel_.cancelled() || watch_.total_ms() >= limit_ms_)) interrupted_ = true;
-    return interrupted_;
-  }
-
   Stopwatch watch_;
   double limit_ms_;
   std::size_t iteration_limit_;

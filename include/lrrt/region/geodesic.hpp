@@ -16,7 +16,9 @@ namespace lrrt {
 class Geodesic {
  public:
   static constexpr std::int32_t unreached = -1;
-  static constexpr double unit = 1.0 / 5.0;  ///< pixels per counted step
+  static constexpr std::int32_t straight = 5;     ///< counted length of a step to the side
+  static constexpr std::int32_t diagonal = 7;     ///< counted length of a step to a corner
+  static constexpr double unit = 1.0 / straight;  ///< pixels per counted length
 
   /// Nothing is reached.
   Geodesic() = default;

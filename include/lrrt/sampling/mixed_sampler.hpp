@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "lrrt/sampling/strategy.hpp"
@@ -36,6 +37,14 @@ class MixedSampler {
   bool wants_guided() { return guided_ && random_.uniform() < alpha_ * guided_->confidence(); }
   /// One guided point, not counted. There must be a guided strategy.
   Eigen::Vector2d draw_guided() { return guided_->draw(random_); }
+  /// One uniform point, not counted.
+  Eigen::Vector2d draw_uniform() { return uniform_.draw(random_); }
+  /// One number in [0, 1), for coordinates that a point of the map does not have.
+  double draw_number() { return random_.uniform(); }
+  /// Which way leads on to the goal from a point, see SamplingStrategy::direction.
+  std::optional<Eigen::Vector2d> direction(const Eigen::Vector2d& point) const {
+    return guided_ ? guided_->direction(point) : std::nullopt;
+  }
   /// One uniform point over which a path between two points, pixel coordinates, could be shorter than `length`; not
   /// counted.
   Eigen::Vector2d draw_informed(const Eigen::Vector2d& start, const Eigen::Vector2d& goal, double length);

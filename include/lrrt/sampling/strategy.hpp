@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "lrrt/region/promising_region.hpp"
@@ -24,6 +25,9 @@ class SamplingStrategy {
   /// True for a point, pixel coordinates, that the strategy could draw before a path is known: samples near a state are
   /// chosen by this.
   virtual bool contains(const Eigen::Vector2d& point) const = 0;
+  /// Which way leads on to the goal from a point, pixel coordinates, of any length but 0; nothing where the strategy
+  /// does not know. Allocates nothing.
+  virtual std::optional<Eigen::Vector2d> direction(const Eigen::Vector2d& /*point*/) const { return std::nullopt; }
   /// How much of its share of the draws the strategy wants for itself, in [0, 1].
   virtual double confidence() const { return 1.0; }
   /// Told of every motion that was found free, pixel coordinates; a strategy may follow the tree by them.
