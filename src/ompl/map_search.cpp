@@ -91,8 +91,8 @@ void MapSearch::run(PlanResult& result) {
   result.timings.plan = limits_->elapsed_ms();
   result.iterations = limits_->iterations();
   result.nodes = planner_.nodes();
-  result.motion_checks =
-      si_->getMotionValidator()->getValidMotionCount() + si_->getMotionValidator()->getInvalidMotionCount();
+  const ob::MotionValidator& checked = *problem_->getSpaceInformation()->getMotionValidator();
+  result.motion_checks = checked.getValidMotionCount() + checked.getInvalidMotionCount();
   result.draws = source_->counts();
   if (problem_->hasExactSolution()) {
     read_path(result);
