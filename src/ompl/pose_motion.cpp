@@ -77,8 +77,10 @@ Pose2 PoseMotion::at(double t) const {
 std::vector<double> PoseMotion::moments(double spacing) const {
   std::vector<double> found;
   const auto divide = [&](double begin, double end) {
-    const double steps = std::ceil((end - begin) * speed_ / spacing);
-    for (double i = 1.0; i <= steps; ++i) found.push_back(begin + (end - begin) * i / steps);
+    const auto steps = static_cast<std::size_t>(std::ceil((end - begin) * speed_ / spacing));
+    for (std::size_t i = 1; i <= steps; ++i) {
+      found.push_back(begin + (end - begin) * static_cast<double>(i) / static_cast<double>(steps));
+    }
   };
   for (std::size_t i = 0; i < count_; ++i) {
     const double end = i + 1 < count_ ? pieces_[i + 1].begin : speed_;
