@@ -168,7 +168,8 @@ std::optional<Eigen::Vector2d> FrontierStrategy::direction(const Eigen::Vector2d
   const Geodesic& to_goal = fronts_[0].to_other;
   Pixel at = OccupancyMap::pixel_of(point);
   if (to_goal.at(at) == Geodesic::unreached) return std::nullopt;
-  for (double walked = 0.0; walked < std::clamp(step_, least_look, most_look); ++walked) {
+  const auto steps = static_cast<int>(std::ceil(std::clamp(step_, least_look, most_look)));
+  for (int i = 0; i < steps; ++i) {
     const Pixel next = step_towards_source(to_goal, at);
     if (next == at) break;
     at = next;
