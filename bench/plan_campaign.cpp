@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
 #include <limits>
 #include <map>
 #include <memory>
@@ -45,11 +44,6 @@ struct PlanJob {
   bool limited_by_id = false;
 };
 
-/// JSON knows no infinity and no NaN.
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
-}
-
 /// Milliseconds from the call to the first path within a factor of the optimum; null when there was none.
 Json time_within(const PlanResult& result, double target, double before_search) {
   for (const CostStep& step : result.cost_history) {
@@ -73,7 +67,7 @@ void add_path(Json& json, const PlanResult& result, const PlanJob& job, double o
   json["first_iteration"] = first.iteration;
   json["first_length"] = first.cost;
   json["length"] = result.cost;
-  json["optimum"] = number(optimum);
+  json["optimum"] = number_or_null(optimum);
   const Clearance clearance = clearance_of(planning_map(*job.problem->map, job.suite), result.path);
   json["clearance"] = {{"least", clearance.least}, {"mean", clearance.mean}};
   for (const int percent : within_percents) {

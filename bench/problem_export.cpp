@@ -38,7 +38,7 @@ Json problem_json(const Problem& problem, const OccupancyMap& map, const std::st
           {"goal", point(problem.goal)},
           {"start_pixel", point(map.to_pixel(problem.start))},
           {"goal_pixel", point(map.to_pixel(problem.goal))},
-          {"optimum", std::isfinite(optimum) ? Json(optimum) : Json()}};
+          {"optimum", number_or_null(optimum)}};
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 #include "lrrt/error.hpp"
 #include "lrrt/ompl/guide.hpp"
 #include "lrrt/ompl/map_search.hpp"
-#include "lrrt/ompl/suitable_range.hpp"
 #include "lrrt/stopwatch.hpp"
 #include "prepare.hpp"
 

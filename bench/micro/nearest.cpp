@@ -93,29 +93,37 @@ Points nodes_of(const benchmark::State& state) {
   return {static_cast<std::size_t>(state.range(0)), 1};
 }
 
+/// A structure with its nodes in it, and points to ask it for.
+template <typename Structure>
+struct Filled {
+  explicit Filled(const benchmark::State& state) : nodes(nodes_of(state)), structure(make<Structure>()) {
+    nodes.fill(structure);
+  }
+
+  Points nodes;
+  Points queries{query_count, 2};
+  Structure structure;
+};
+
 template <typename Structure>
 void nearest(benchmark::State& state) {
-  const Points nodes = nodes_of(state);
-  const Points queries(query_count, 2);
-  Structure structure = make<Structure>();
-  nodes.fill(structure);
+  const Filled<Structure> tree(state);
   std::size_t i = 0;
-  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(structure.nearest(queries[i++ % query_count]));
+  for ([[maybe_unused]] auto _ : state) {
+    benchmark::DoNotOptimize(tree.structure.nearest(tree.queries[i++ % query_count]));
+  }
   state.SetItemsProcessed(state.iterations());
 }
 
 template <typename Structure>
 void disc(benchmark::State& state) {
-  const Points nodes = nodes_of(state);
-  const Points queries(query_count, 2);
-  Structure structure = make<Structure>();
-  nodes.fill(structure);
-  const double radius = rewiring_radius(static_cast<double>(nodes.size()));
+  const Filled<Structure> tree(state);
+  const double radius = rewiring_radius(static_cast<double>(tree.nodes.size()));
   std::vector<Node> found;
   double sum = 0.0;
   std::size_t i = 0;
   for ([[maybe_unused]] auto _ : state) {
-    structure.nearestR(queries[i++ % query_count], radius, found);
+    tree.structure.nearestR(tree.queries[i++ % query_count], radius, found);
     sum += static_cast<double>(found.size());
   }
   state.counters["neighbours"] = benchmark::Counter(sum, benchmark::Counter::kAvgIterations);

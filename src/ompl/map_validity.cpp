@@ -6,7 +6,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "last_free.hpp"
+
 namespace lrrt {
+
+double CollisionMap::clearance(const Eigen::Vector2d& point) const {
+  // The field measures between centres; the point and the obstacle's nearest one are at most half a diagonal off each.
+  const double pixels = static_cast<double>(field_.at(OccupancyMap::pixel_of(map_.to_pixel(point)))) - std::sqrt(2.0);
+  return std::max(0.0, pixels) * map_.resolution();
+}
 
 MapValidityChecker::MapValidityChecker(const ompl::base::SpaceInformationPtr& si,
                                        std::shared_ptr<const CollisionMap> map,
@@ -18,11 +26,7 @@ bool MapValidityChecker::isValid(const ompl::base::State* state) const {
 }
 
 double MapValidityChecker::clearance(const ompl::base::State* state) const {
-  const Pixel pixel = OccupancyMap::pixel_of(map_->map().to_pixel(projection_->read(state)));
-  // The field measures between centres; the state and the obstacle's nearest point are at most half a diagonal off
-  // each.
-  const double pixels = std::max(0.0, static_cast<double>(map_->field().at(pixel)) - std::sqrt(2.0));
-  return pixels * map_->map().resolution();
+  return map_->clearance(projection_->read(state));
 }
 
 MapMotionValidator::MapMotionValidator(const ompl::base::SpaceInformationPtr& si,
@@ -46,14 +50,10 @@ bool MapMotionValidator::checkMotion(const ompl::base::State* from, const ompl::
   if (checkMotion(from, to)) return true;
   const Eigen::Vector2d start = projection_->read(from);
   const Eigen::Vector2d motion = projection_->read(to) - start;
-  double free = 0.0;
-  double blocked = 1.0;
-  for (int i = 0; i < 30; ++i) {
-    const double middle = (free + blocked) / 2.0;
-    (map_->is_free(start, start + middle * motion) ? free : blocked) = middle;
+  last_valid.second = last_free_share([&](double share) { return map_->is_free(start, start + share * motion); });
+  if (last_valid.first != nullptr) {
+    si_->getStateSpace()->interpolate(from, to, last_valid.second, last_valid.first);
   }
-  last_valid.second = free;
-  if (last_valid.first != nullptr) si_->getStateSpace()->interpolate(from, to, free, last_valid.first);
   return false;
 }
 

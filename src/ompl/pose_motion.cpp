@@ -136,25 +136,21 @@ ob::DubinsStateSpace::DubinsPath Steering::dubins_curve(const ob::State* from, c
 
 PoseMotion Steering::between(const ob::State* from, const ob::State* to) const {
   PoseMotion motion(pose_of(from), pose_of(to), reach_);
-  const double curvature = 1.0 / turning_radius_;
+  const auto drive = [&](double length, bool straight, bool left) {
+    motion.append(length * turning_radius_, (straight ? 0.0 : left ? 1.0 : -1.0) / turning_radius_);
+  };
   if (dubins_ != nullptr) {
     const ob::DubinsStateSpace::DubinsPath path = dubins_curve(from, to);
     for (int i = 0; i < 3; ++i) {
       const auto kind = path.type_[i];
-      const double side = kind == ob::DubinsStateSpace::DUBINS_STRAIGHT ? 0.0
-                          : kind == ob::DubinsStateSpace::DUBINS_LEFT   ? 1.0
-                                                                        : -1.0;
-      motion.append(path.length_[i] * turning_radius_, side * curvature);
+      drive(path.length_[i], kind == ob::DubinsStateSpace::DUBINS_STRAIGHT, kind == ob::DubinsStateSpace::DUBINS_LEFT);
     }
   } else if (reeds_shepp_ != nullptr) {
     const ob::ReedsSheppStateSpace::ReedsSheppPath path = reeds_shepp_->reedsShepp(from, to);
     for (int i = 0; i < 5; ++i) {
       const auto kind = path.type_[i];
       if (kind == ob::ReedsSheppStateSpace::RS_NOP) break;
-      const double side = kind == ob::ReedsSheppStateSpace::RS_STRAIGHT ? 0.0
-                          : kind == ob::ReedsSheppStateSpace::RS_LEFT   ? 1.0
-                                                                        : -1.0;
-      motion.append(path.length_[i] * turning_radius_, side * curvature);
+      drive(path.length_[i], kind == ob::ReedsSheppStateSpace::RS_STRAIGHT, kind == ob::ReedsSheppStateSpace::RS_LEFT);
     }
   }
   return motion;

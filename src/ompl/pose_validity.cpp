@@ -4,8 +4,9 @@
 #include <ompl/base/SpaceInformation.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
+
+#include "last_free.hpp"
 
 namespace lrrt {
 namespace {
@@ -30,11 +31,7 @@ bool PoseValidityChecker::isValid(const ompl::base::State* state) const {
 
 double PoseValidityChecker::clearance(const ompl::base::State* state) const {
   const Pose2 pose = pose_of(state);
-  const CollisionMap& map = *body_->map();
-  const Pixel pixel = OccupancyMap::pixel_of(map.map().to_pixel({pose.x, pose.y}));
-  // as in MapValidityChecker: position and obstacle lie at most half a diagonal off the centres of their pixels
-  const double pixels = static_cast<double>(map.field().at(pixel)) - std::sqrt(2.0);
-  return std::max(0.0, pixels * map.map().resolution() - body_->outline().circumscribed_radius());
+  return std::max(0.0, body_->map()->clearance({pose.x, pose.y}) - body_->outline().circumscribed_radius());
 }
 
 PoseMotionValidator::PoseMotionValidator(const ompl::base::SpaceInformationPtr& si,
@@ -56,13 +53,7 @@ bool PoseMotionValidator::checkMotion(const ompl::base::State* from, const ompl:
                                       std::pair<ompl::base::State*, double>& last_valid) const {
   if (checkMotion(from, to)) return true;
   const PoseMotion motion = steering_.between(from, to);
-  double free = 0.0;
-  double blocked = 1.0;
-  for (int i = 0; i < 30; ++i) {
-    const double middle = (free + blocked) / 2.0;
-    (body_->is_free(motion, middle) ? free : blocked) = middle;
-  }
-  last_valid.second = motion.share(free);
+  last_valid.second = motion.share(last_free_share([&](double t) { return body_->is_free(motion, t); }));
   if (last_valid.first != nullptr) {
     si_->getStateSpace()->interpolate(from, to, last_valid.second, last_valid.first);
   }

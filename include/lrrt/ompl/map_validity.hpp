@@ -30,6 +30,8 @@ class CollisionMap {
   bool is_free(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
     return walk_.is_free(map_.to_pixel(from), map_.to_pixel(to));
   }
+  /// Distance from a point to the nearest obstacle, map units: a lower bound of it, never negative.
+  double clearance(const Eigen::Vector2d& point) const;
 
  private:
   OccupancyMap map_;
