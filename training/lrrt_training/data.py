@@ -203,7 +203,10 @@ class RegionData(lightning.LightningDataModule):
 
     def train_dataloader(self) -> DataLoader:
         batches = CurriculumBatches(self.curriculum, self.first, self.trainer.global_rank, self.trainer.world_size)
-        return DataLoader(self.dataset(), batch_sampler=batches, num_workers=self.workers)
+        context = "spawn" if self.workers else None  # a fork may wait for ever for a lock that another thread held
+        return DataLoader(
+            self.dataset(), batch_sampler=batches, num_workers=self.workers, multiprocessing_context=context
+        )
 
     def class_frequencies(self, samples: int = 200) -> list[float]:
         """Shares of the pixels of the three classes over samples of the last stage."""

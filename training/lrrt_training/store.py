@@ -9,6 +9,7 @@ import os
 import zipfile
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from multiprocessing import get_context
 from pathlib import Path
 from typing import NamedTuple
 
@@ -66,7 +67,9 @@ def generate_level(job: LevelJob) -> np.ndarray:
 
 def _made_by_processes(jobs: list[LevelJob], workers: int) -> Iterator[tuple[LevelJob, np.ndarray]]:
     """Files as they are finished."""
-    with ProcessPoolExecutor(max_workers=workers) as pool:
+    # Spawned, not forked: a fork copies the locks that other threads hold (progress bar, PyTorch, ONNX Runtime), and
+    # may wait for one of them for ever.
+    with ProcessPoolExecutor(max_workers=workers, mp_context=get_context("spawn")) as pool:
         pending = {pool.submit(generate_level, job): job for job in jobs}
         for future in as_completed(pending):
             yield pending.pop(future), future.result()
