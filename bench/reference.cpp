@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "corner_field.hpp"
+#include "lrrt/map/clearance_bound.hpp"
 #include "lrrt/map/components.hpp"
-#include "lrrt/map/distance_field.hpp"
 #include "lrrt/map/segment_walk.hpp"
 #include "lrrt/map/shortest_path.hpp"
 
@@ -118,8 +118,8 @@ double shortest_length(const OccupancyMap& map, const Eigen::Vector2d& start, co
   const Eigen::Vector2d from = map.to_pixel(start);
   const Eigen::Vector2d to = map.to_pixel(goal);
   if (!Components(map).joined(OccupancyMap::pixel_of(from), OccupancyMap::pixel_of(to))) return infinite;
-  const DistanceField field(map);
-  const SegmentWalk walk(field);
+  const ClearanceBound clearance(map);
+  const SegmentWalk walk(clearance);
   const double bound = some_length(map, walk, from, to) + tolerance;
   const std::vector<Vertex> vertices = vertices_within(map, from, to, bound);
   if (vertices.size() > most_corners) return std::numeric_limits<double>::quiet_NaN();

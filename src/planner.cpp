@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "check_request.hpp"
+#include "free_space.hpp"
 #include "lrrt/error.hpp"
 #include "lrrt/ompl/guide.hpp"
 #include "lrrt/ompl/map_search.hpp"
 #include "lrrt/stopwatch.hpp"
-#include "prepare.hpp"
 
 namespace lrrt {
 namespace {
@@ -39,14 +39,18 @@ std::shared_ptr<const PromisingRegion> predict(const RegionPredictor& predictor,
   return std::make_shared<const PromisingRegion>(std::move(prediction.region));
 }
 
-MixedSampler sampler_for(const std::shared_ptr<const CollisionMap>& map, const PromisingRegion* region,
-                         const PlanRequest& request, const PlanOptions& options) {
+MapSampler sampler_for(const Prepared& prepared, const PromisingRegion* region, const PlanRequest& request,
+                       const PlanOptions& options) {
   if (region == nullptr) {
-    return {nullptr, UniformStrategy(map->map().width(), map->map().height()), options.alpha, options.seed};
+    const std::shared_ptr<const OccupancyMap> map(prepared.map, &prepared.map->map());
+    return {map, {nullptr, UniformStrategy(map->width(), map->height()), options.alpha, options.seed}};
   }
-  return make_sampler(map, *region, request.start, request.goal, growth_of(options.planner),
+  return make_sampler(prepared.guidance, *region, request.start, request.goal, growth_of(options.planner),
                       {options.strategy, options.alpha, options.range, options.seed});
 }
+
+/// Longest side, pixels, of the maps on which start and goal are first looked for a way, where nothing is predicted.
+constexpr int unguided_detail = 1024;
 
 SearchSpace space_for(const Prepared& prepared, const PlanRequest& request,
                       const std::shared_ptr<SearchLimits>& limits) {
@@ -78,7 +82,9 @@ PlanResult Planner::plan(const PlanRequest& request) const {
   check(request, options_);
   PlanResult result;
   const Stopwatch watch;
-  const Prepared prepared = prepare(request, options_.goal_tolerance);
+  const bool guided = options_.strategy != Strategy::uniform;
+  FreeSpace space(request, guided ? predictor_->detail() : unguided_detail);
+  const Prepared prepared = space.prepare(request, options_.goal_tolerance);
   result.timings.prepare = result.timings.total = watch.total_ms();
   if (prepared.hopeless) {
     result.status = *prepared.hopeless;
@@ -89,9 +95,7 @@ PlanResult Planner::plan(const PlanRequest& request) const {
     return result;
   }
 
-  if (options_.strategy != Strategy::uniform) {
-    result.region = predict(*predictor_, prepared.map->map(), request, result.timings);
-  }
+  if (guided) result.region = predict(*predictor_, *prepared.guidance, request, result.timings);
 
   Stopwatch search_watch;
   PlanOptions options = options_;
@@ -99,7 +103,7 @@ PlanResult Planner::plan(const PlanRequest& request) const {
   const auto limits = std::make_shared<SearchLimits>(options.time_limit, options.iteration_limit, request.cancel);
   MapSearch search(space_for(prepared, request, limits), pose(request.start, request.start_heading),
                    pose(request.goal, request.goal_heading),
-                   sampler_for(prepared.map, result.region.get(), request, options), options, limits);
+                   sampler_for(prepared, result.region.get(), request, options), options, limits);
   result.timings.prepare += search_watch.lap_ms();
   search.run(result);
   result.timings.total = watch.total_ms();

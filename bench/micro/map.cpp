@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "lrrt/map/clearance_bound.hpp"
 #include "lrrt/map/components.hpp"
 #include "lrrt/map/distance_field.hpp"
 #include "lrrt/map/flood.hpp"
@@ -40,8 +41,8 @@ std::vector<Segment> draw_segments(const SegmentWalk& walk, int side, double len
 /// One check of a motion: what a planner asks most often.
 void segment_walk(benchmark::State& state, SceneMaker scene, double length, bool free = true) {
   constexpr int side = 512;
-  const DistanceField field(scene(side).map);
-  const SegmentWalk walk(field);
+  const ClearanceBound clearance(scene(side).map);
+  const SegmentWalk walk(clearance);
   const std::vector<Segment> segments = draw_segments(walk, side, length, free);
   std::size_t i = 0;
   for ([[maybe_unused]] auto _ : state) {

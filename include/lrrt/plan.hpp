@@ -159,7 +159,7 @@ struct PlanResult {
   DrawCounts draws{};                             ///< samples drawn from the region and uniformly
   std::vector<CostStep> cost_history;             ///< strictly falling costs (RRT*)
   std::vector<TreeEdge> tree;                     ///< only with PlanOptions::keep_tree; straight, also for arcs
-  std::shared_ptr<const PromisingRegion> region;  ///< the region that was used
+  std::shared_ptr<const PromisingRegion> region;  ///< the region that was used; on large maps in larger pixels
   PlanTimings timings{};
 
   bool solved() const { return status == PlanStatus::solved; }

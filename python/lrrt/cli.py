@@ -288,7 +288,12 @@ def result_fields(result: PlanResult) -> dict[str, Any]:
         "cost_history": result.cost_history.tolist(),
         "region": None
         if region is None
-        else {"connected": region.connected, "area": region.area, "bridge_area": region.bridge_area},
+        else {
+            "connected": region.connected,
+            "area": region.area,
+            "bridge_area": region.bridge_area,
+            "coarseness": region.coarseness,
+        },
         "timings": result.timings,
     }
 
@@ -342,7 +347,10 @@ def _result_table(map_: OccupancyMap, result: PlanResult) -> Table:
     if result.region is not None:
         bridged = result.region.bridge_area
         table.add_row(
-            "region", f"{result.region.area:,d} pixels" + (f", {bridged:,d} of them to close gaps" if bridged else "")
+            "region",
+            f"{result.region.area:,d} pixels"
+            + (f" of {side}×{side} of the map's" if (side := result.region.coarseness) > 1 else "")
+            + (f", {bridged:,d} of them to close gaps" if bridged else ""),
         )
     table.add_row("time", _times(result.timings))
     return table

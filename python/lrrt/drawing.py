@@ -49,7 +49,7 @@ def draw(
     if region is None and result is not None:
         region = result.region
     if region is not None:
-        _show(axes, map, _overlay(region), "region")
+        _show(axes, map, _overlay(region), "region", region.coarseness)
     if result is not None:
         _draw_tree(axes, result)
         _draw_path(axes, result)
@@ -88,14 +88,14 @@ def _pixel_to_world(map: OccupancyMap) -> Affine2D:
     return Affine2D(matrix)
 
 
-def _show(axes: Axes, map: OccupancyMap, pixels: npt.NDArray[np.uint8], label: str) -> None:
+def _show(axes: Axes, map: OccupancyMap, pixels: npt.NDArray[np.uint8], label: str, coarseness: int = 1) -> None:
     image = axes.imshow(
         pixels,
         cmap="gray",
         vmin=0,
         vmax=255,
         interpolation="nearest",
-        extent=(0, map.width, map.height, 0),
+        extent=(0, coarseness * pixels.shape[1], coarseness * pixels.shape[0], 0),
         transform=_pixel_to_world(map) + axes.transData,
     )
     image.set_label(label)

@@ -144,6 +144,20 @@ void bind_map(py::module_& module) {
             return map.is_free(OccupancyMap::pixel_of(map.to_pixel(point)));
           },
           py::arg("point"), "True when the point (x, y), map units, lies on a free pixel.")
+      .def_property_readonly(
+          "coarseness", &OccupancyMap::coarseness,
+          "Pixels of the map that this one was coarsened from along the side of one of its own; else 1.")
+      .def("coarsened", &OccupancyMap::coarsened, py::arg("factor"),
+           "The map in larger pixels, free where all of `factor` × `factor` pixels are; map units mean the same on "
+           "it.\n\n"
+           "`factor` is a power of two; raises MapError otherwise.")
+      .def(
+          "cropped",
+          [](const OccupancyMap& map, int column, int row, int width, int height) {
+            return map.cropped({column, row, width, height});
+          },
+          py::arg("column"), py::arg("row"), py::arg("width"), py::arg("height"),
+          "A part of the map; map units mean the same on it. Raises MapError when it leaves the map.")
       .def("to_pixel", &OccupancyMap::to_pixel, py::arg("point"), "Map units to pixel coordinates (x right, y down).")
       .def("to_world", &OccupancyMap::to_world, py::arg("pixel"), "Pixel coordinates to map units.")
       .def("__repr__", &describe);

@@ -147,6 +147,10 @@ void bind_region(py::module_& module) {
       .def_property_readonly("bridge_area", &PromisingRegion::bridge_area,
                              "Pixels that plan() added to close gaps; 0 for a region as it was predicted.")
       .def_property_readonly("area", &PromisingRegion::area, "Number of pixels in the mask.")
+      .def_property_readonly(
+          "coarseness", &PromisingRegion::coarseness,
+          "Pixels of the map along the side of a pixel of the region: above 1 where plan() guided by "
+          "a coarsened map, see OccupancyMap.coarsened.")
       .def("picture", &picture, py::arg("map"), "(H, W, 3) uint8 picture: the map with the region in green.");
 }
 

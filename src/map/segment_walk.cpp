@@ -38,7 +38,7 @@ struct Axis {
 bool SegmentWalk::is_free(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
   const Pixel first = OccupancyMap::pixel_of(from);
   const Pixel last = OccupancyMap::pixel_of(to);
-  if (field_.at(first) <= 0.0F || field_.at(last) <= 0.0F) return false;
+  if (clearance_.at(first) <= 0.0F || clearance_.at(last) <= 0.0F) return false;
   const Axis x(from.x(), to.x(), last.c);
   const Axis y(from.y(), to.y(), last.r);
   const Eigen::Vector2d direction = to - from;
@@ -46,7 +46,7 @@ bool SegmentWalk::is_free(const Eigen::Vector2d& from, const Eigen::Vector2d& to
   Pixel pixel = first;
   double travelled = 0.0;
   while (pixel != last) {
-    const float clearance = field_.at(pixel);
+    const float clearance = clearance_.at(pixel);
     if (clearance <= 0.0F) return false;
     const double leave_x = x.leaves(pixel.c);
     const double leave_y = y.leaves(pixel.r);
@@ -61,7 +61,7 @@ bool SegmentWalk::is_free(const Eigen::Vector2d& from, const Eigen::Vector2d& to
     }
     travelled = std::max(travelled, std::min(leave_x, leave_y) * length);
     if (std::abs(leave_x - leave_y) * length <= corner_width) {
-      if (field_.at({pixel.c + x.step, pixel.r}) <= 0.0F || field_.at({pixel.c, pixel.r + y.step}) <= 0.0F)
+      if (clearance_.at({pixel.c + x.step, pixel.r}) <= 0.0F || clearance_.at({pixel.c, pixel.r + y.step}) <= 0.0F)
         return false;
       pixel = {pixel.c + x.step, pixel.r + y.step};
     } else if (leave_x < leave_y) {

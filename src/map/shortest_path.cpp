@@ -145,9 +145,9 @@ std::vector<Eigen::Vector2d> smoothed(const OccupancyMap& map, const std::vector
   check(clearance);
   if (path.empty()) return {};
   constexpr double rounding = 1e-6;
-  const DistanceField field(map);
-  const std::vector<float> costs = unit_costs(field.values(), clearance);
-  const SegmentWalk walk(field);
+  const ClearanceBound bound(map, std::numeric_limits<int>::max());  // the distance field itself: costs ask for it
+  const std::vector<float> costs = unit_costs(bound.field().values(), clearance);
+  const SegmentWalk walk(bound);
   std::vector<Eigen::Vector2d> corners{middle(path.front())};
   double along = 0.0;  // cost of the pixel path from the last corner on
   for (std::size_t i = 1; i < path.size(); ++i) {

@@ -85,6 +85,14 @@ bool cost_is_length(const ob::ProblemDefinition& problem, const ob::Optimization
          problem.getStartStateCount() == 1 && dynamic_cast<const ob::GoalState*>(problem.getGoal().get()) != nullptr;
 }
 
+/// The map that a region belongs to: this one, or it in larger pixels.
+std::shared_ptr<const OccupancyMap> map_of(const PromisingRegion& region,
+                                           const std::shared_ptr<const CollisionMap>& map) {
+  const int factor = region.coarseness() / map->map().coarseness();
+  if (factor > 1) return std::make_shared<const OccupancyMap>(map->map().coarsened(factor));
+  return {map, &map->map()};
+}
+
 void check(const ob::Planner& planner) {
   growth_of(planner.getName());
   if (!planner.getProblemDefinition() || planner.getProblemDefinition()->getStartStateCount() == 0 ||
@@ -113,25 +121,23 @@ Growth growth_of(const std::string& planner) {
   throw RequestError("planner '" + planner + "' cannot be guided; these can: " + known);
 }
 
-MixedSampler make_sampler(const std::shared_ptr<const CollisionMap>& map, const PromisingRegion& region,
-                          const Eigen::Vector2d& start, const Eigen::Vector2d& goal, Growth growth,
-                          const GuideOptions& options) {
-  const OccupancyMap& grid = map->map();
-  const Pixel from = free_pixel(grid, start, "start");
-  const Pixel to = free_pixel(grid, goal, "goal");
-  region.check_belongs_to(grid);
+MapSampler make_sampler(const std::shared_ptr<const OccupancyMap>& map, const PromisingRegion& region,
+                        const Eigen::Vector2d& start, const Eigen::Vector2d& goal, Growth growth,
+                        const GuideOptions& options) {
+  const Pixel from = free_pixel(*map, start, "start");
+  const Pixel to = free_pixel(*map, goal, "goal");
+  region.check_belongs_to(*map);
   std::optional<PromisingRegion> mended;
-  if (!region.connected()) mended = region.bridged(grid, from, to);
+  if (!region.connected()) mended = region.bridged(*map, from, to);
   const PromisingRegion& bridged = mended ? *mended : region;
   std::unique_ptr<SamplingStrategy> guided;
   if (options.strategy == Strategy::frontier && bridged.connected()) {
-    const double range = options.range > 0.0 ? options.range : suitable_range(*map);
-    guided = std::make_unique<FrontierStrategy>(std::shared_ptr<const OccupancyMap>(map, &grid), bridged, from, to,
-                                                FrontierOptions{range / grid.resolution(), growth});
+    guided = std::make_unique<FrontierStrategy>(map, bridged, from, to,
+                                                FrontierOptions{options.range / map->resolution(), growth});
   } else if (options.strategy != Strategy::uniform && bridged.area() > 0) {
     guided = std::make_unique<RegionStrategy>(bridged);
   }
-  return {std::move(guided), UniformStrategy(grid.width(), grid.height()), options.alpha, options.seed};
+  return {map, {std::move(guided), UniformStrategy(map->width(), map->height()), options.alpha, options.seed}};
 }
 
 std::shared_ptr<GuidedSource> guide(ob::Planner& planner, const std::shared_ptr<const CollisionMap>& map,
@@ -140,19 +146,21 @@ std::shared_ptr<GuidedSource> guide(ob::Planner& planner, const std::shared_ptr<
   check(planner);
   if (!projection) projection = projection_of(*planner.getSpaceInformation()->getStateSpace());
   const ob::ProblemDefinition& problem = *planner.getProblemDefinition();
-  return guide(planner, map,
-               make_sampler(map, region, projection->read(problem.getStartState(0)),
-                            goal_position(problem, *projection), growth_of(planner.getName()), options),
+  GuideOptions complete = options;
+  if (complete.range == 0.0) complete.range = suitable_range(*map);
+  return guide(planner,
+               make_sampler(map_of(region, map), region, projection->read(problem.getStartState(0)),
+                            goal_position(problem, *projection), growth_of(planner.getName()), complete),
                projection);
 }
 
-std::shared_ptr<GuidedSource> guide(ob::Planner& planner, const std::shared_ptr<const CollisionMap>& map,
-                                    MixedSampler sampler, const std::shared_ptr<const MapProjection>& projection) {
+std::shared_ptr<GuidedSource> guide(ob::Planner& planner, MapSampler sampler,
+                                    const std::shared_ptr<const MapProjection>& projection) {
   check(planner);
   const ob::SpaceInformationPtr si = planner.getSpaceInformation();
   const ob::ProblemDefinitionPtr problem = planner.getProblemDefinition();
   auto source =
-      std::make_shared<GuidedSource>(map, std::move(sampler), projection, projection->read(problem->getStartState(0)),
+      std::make_shared<GuidedSource>(std::move(sampler), projection, projection->read(problem->getStartState(0)),
                                      goal_position(*problem, *projection));
   si->getStateSpace()->setStateSamplerAllocator(
       [source](const ob::StateSpace* space) { return std::make_shared<GuidedStateSampler>(space, source); });

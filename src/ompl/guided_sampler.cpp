@@ -84,7 +84,7 @@ bool ObservingMotionValidator::checkMotion(const ob::State* from, const ob::Stat
 }
 
 void GuidedSource::write_whole(const Eigen::Vector2d& point, ob::State* state) {
-  projection_->write(map_->map().to_world(point), state);
+  projection_->write(map_->to_world(point), state);
   if (projection_->has_heading()) projection_->write_heading(2.0 * pi * sampler_.draw_number(), state);
 }
 
@@ -93,7 +93,7 @@ void GuidedSource::write(const Eigen::Vector2d& point, ob::State* state, ob::Sta
     write_whole(point, state);
   } else {
     other.sampleUniform(state);
-    projection_->write(map_->map().to_world(point), state);
+    projection_->write(map_->to_world(point), state);
   }
 }
 
@@ -113,7 +113,7 @@ void GuidedSource::align(const Eigen::Vector2d& point, ob::State* state) {
   if (sampler_.draw_number() >= aligned_share) return;
   const std::optional<Eigen::Vector2d> direction = sampler_.direction(point);
   if (!direction) return;
-  const Eigen::Vector2d ahead = map_->map().to_world(point + *direction) - map_->map().to_world(point);
+  const Eigen::Vector2d ahead = map_->to_world(point + *direction) - map_->to_world(point);
   double heading = std::atan2(ahead.y(), ahead.x()) + spread * (2.0 * sampler_.draw_number() - 1.0);
   if (projection_->can_reverse() && sampler_.draw_number() < backwards_share) heading += pi;
   projection_->write_heading(heading, state);
@@ -124,7 +124,7 @@ void GuidedSource::place_near(ob::State* state, const ob::State* near, double di
     other.sampleUniformNear(state, near, distance);
     return;
   }
-  const double reach = distance / map_->map().resolution();
+  const double reach = distance / map_->resolution();
   const double heading = projection_->read_heading(near);
   write_whole(sampler_.draw_near(pixel_point(near), reach), state);
   if (projection_->has_heading()) projection_->write_heading(heading + pi * (sampler_.draw_number() - 0.5), state);
@@ -132,7 +132,7 @@ void GuidedSource::place_near(ob::State* state, const ob::State* near, double di
 
 bool GuidedSource::place_informed(ob::State* state, double length) {
   if (!projection_->is_whole_state()) return false;
-  write_whole(sampler_.draw_informed(start_, goal_, length / map_->map().resolution()), state);
+  write_whole(sampler_.draw_informed(start_, goal_, length / map_->resolution()), state);
   return true;
 }
 
@@ -147,7 +147,7 @@ void GuidedSource::improved(const std::vector<const ob::State*>& states, double 
   }
   if (path.empty() || path.front() != start_) path.insert(path.begin(), start_);
   if (path.back() != goal_) path.push_back(goal_);
-  sampler_.improved(path, length / map_->map().resolution());
+  sampler_.improved(path, length / map_->resolution());
 }
 
 }  // namespace lrrt

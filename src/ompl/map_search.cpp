@@ -36,7 +36,7 @@ std::uint32_t planner_seed(std::uint64_t seed) {
 
 }  // namespace
 
-MapSearch::MapSearch(SearchSpace space, const Pose2& start, const Pose2& goal, MixedSampler sampler,
+MapSearch::MapSearch(SearchSpace space, const Pose2& start, const Pose2& goal, MapSampler sampler,
                      const PlanOptions& options, std::shared_ptr<SearchLimits> limits)
     : space_(std::move(space)), options_(options), limits_(std::move(limits)) {
   problem_ = std::make_shared<ob::ProblemDefinition>(space_.si);
@@ -50,7 +50,7 @@ MapSearch::MapSearch(SearchSpace space, const Pose2& start, const Pose2& goal, M
       options_.planner, space_.si,
       {options_.range, options_.goal_bias, planner_seed(options_.seed), options_.neighbors == Neighbors::grid});
   planner_.planner->setProblemDefinition(problem_);
-  source_ = guide(*planner_.planner, space_.map, std::move(sampler), space_.projection);
+  source_ = guide(*planner_.planner, std::move(sampler), space_.projection);
   planner_.planner->setup();
 }
 

@@ -10,10 +10,16 @@
 
 namespace lrrt {
 
+const DistanceField& CollisionMap::field() const {
+  if (bound_.coarseness() == 1) return bound_.field();
+  std::call_once(asked_, [this] { field_.emplace(*map_); });
+  return *field_;
+}
+
 double CollisionMap::clearance(const Eigen::Vector2d& point) const {
-  // The field measures between centres; the point and the obstacle's nearest one are at most half a diagonal off each.
-  const double pixels = static_cast<double>(field_.at(OccupancyMap::pixel_of(map_.to_pixel(point)))) - std::sqrt(2.0);
-  return std::max(0.0, pixels) * map_.resolution();
+  // The bound is one between centres; the point and the obstacle's nearest one are at most half a diagonal off each.
+  const double pixels = static_cast<double>(bound_.at(OccupancyMap::pixel_of(map_->to_pixel(point)))) - std::sqrt(2.0);
+  return std::max(0.0, pixels) * map_->resolution();
 }
 
 MapValidityChecker::MapValidityChecker(const ompl::base::SpaceInformationPtr& si,

@@ -26,7 +26,7 @@ void check(const OccupancyMap& map, const std::vector<float>& probability, float
 
 PromisingRegion::PromisingRegion(const OccupancyMap& map, std::vector<float> probability, Pixel start, Pixel goal,
                                  float threshold)
-    : width_(map.width()), height_(map.height()), probability_(std::move(probability)) {
+    : width_(map.width()), height_(map.height()), coarseness_(map.coarseness()), probability_(std::move(probability)) {
   check(map, probability_, threshold);
   mask_.resize(probability_.size());
   // A comparison with NaN is false, so a broken probability never enters the mask.

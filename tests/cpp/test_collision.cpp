@@ -63,14 +63,34 @@ TEST(DistanceField, IsExactFarFromASinglePixelOfAWideMap) {
   }
 }
 
+TEST(ClearanceBound, IsNeverMoreThanTheDistanceAndTellsWhatIsFree) {
+  Random random(16);
+  for (int i = 0; i < 200; ++i) {
+    const OccupancyMap map = test::random_map(random, 3, 200);
+    const DistanceField field(map);
+    const int most_side = 1 << random.index(9);
+    const ClearanceBound bound(map, most_side);
+    ASSERT_LE(std::max(bound.field().width(), bound.field().height()), most_side);
+    for (int r = -1; r <= map.height(); ++r) {
+      for (int c = -1; c <= map.width(); ++c) {
+        const float at = bound.at({c, r});
+        ASSERT_EQ(at > 0.0F, map.is_free({c, r}));
+        ASSERT_LE(at, field.at({c, r}) + 1e-4F) << "map " << i << " pixel " << c << ", " << r;
+        ASSERT_TRUE(bound.coarseness() > 1 || at == field.at({c, r}));
+      }
+    }
+  }
+}
+
 TEST(SegmentWalk, EqualsClippingEveryPixel) {
   Random random(12);
   int free = 0;
   int blocked = 0;
   for (int i = 0; i < 300; ++i) {
     const OccupancyMap map = test::random_map(random, 3, 80);
-    const DistanceField field(map);
-    const SegmentWalk walk(field);
+    // 7 pixels a side are always too few for the distance field itself
+    const ClearanceBound clearance(map, i % 2 == 0 ? 1024 : 7);
+    const SegmentWalk walk(clearance);
     for (int k = 0; k < 200; ++k) {
       const Eigen::Vector2d from = test::random_free_point(map, random);
       const double reach = random.uniform(0.0, map.width());
@@ -89,8 +109,8 @@ TEST(SegmentWalk, IsTheSameInBothDirections) {
   Random random(13);
   for (int i = 0; i < 100; ++i) {
     const OccupancyMap map = test::random_map(random, 3, 60);
-    const DistanceField field(map);
-    const SegmentWalk walk(field);
+    const ClearanceBound clearance(map);
+    const SegmentWalk walk(clearance);
     for (int k = 0; k < 100; ++k) {
       const Eigen::Vector2d a = test::random_free_point(map, random);
       const Eigen::Vector2d b = test::random_free_point(map, random);
@@ -101,8 +121,8 @@ TEST(SegmentWalk, IsTheSameInBothDirections) {
 
 TEST(SegmentWalk, DoesNotCutCorners) {
   const OccupancyMap map = test::map_from_rows({".#", ".."});
-  const DistanceField field(map);
-  const SegmentWalk walk(field);
+  const ClearanceBound clearance(map);
+  const SegmentWalk walk(clearance);
   EXPECT_FALSE(walk.is_free({0.5, 0.5}, {1.5, 1.5}));  // through the common corner: touches the occupied pixel
   EXPECT_TRUE(walk.is_free({0.5, 0.5}, {0.5, 1.5}));
   EXPECT_TRUE(walk.is_free({0.5, 1.5}, {1.5, 1.5}));
@@ -117,8 +137,9 @@ TEST(SegmentWalk, FindsEveryExactCorner) {
                                (1.0 + static_cast<double>(random.index(100))) / 16.0);
     std::vector<Cell> cells(256, Cell::free);
     cells[i % 2 == 0 ? 7 * 16 + 8 : 8 * 16 + 7] = Cell::occupied;
-    const DistanceField field(OccupancyMap(16, 16, std::move(cells)));
-    const SegmentWalk walk(field);
+    const OccupancyMap map(16, 16, std::move(cells));
+    const ClearanceBound clearance(map);
+    const SegmentWalk walk(clearance);
     const Eigen::Vector2d corner(8.0, 8.0);
     ASSERT_FALSE(walk.is_free(corner - half, corner + half)) << half.transpose();
   }
@@ -126,8 +147,8 @@ TEST(SegmentWalk, FindsEveryExactCorner) {
 
 TEST(SegmentWalk, PointsThatAreNowhereAreNotFree) {
   const OccupancyMap map = test::map_from_rows({"...", "..."});
-  const DistanceField field(map);
-  const SegmentWalk walk(field);
+  const ClearanceBound clearance(map);
+  const SegmentWalk walk(clearance);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(walk.is_free({0.5, 0.5}, {nan, 0.5}));
   EXPECT_FALSE(walk.is_free({0.5, 0.5}, {3.0, 0.5}));
@@ -138,8 +159,8 @@ TEST(SegmentWalk, PointsThatAreNowhereAreNotFree) {
 
 TEST(SegmentWalk, SegmentsAlongPixelBordersEnd) {
   const OccupancyMap map = test::map_from_rows({"......", "......", "......"});
-  const DistanceField field(map);
-  const SegmentWalk walk(field);
+  const ClearanceBound clearance(map);
+  const SegmentWalk walk(clearance);
   EXPECT_TRUE(walk.is_free({1.0, 1.0}, {5.0, 1.0}));
   EXPECT_TRUE(walk.is_free({5.0, 1.0}, {1.0, 1.0}));
   EXPECT_TRUE(walk.is_free({0.0, 0.0}, {2.0, 2.0}));

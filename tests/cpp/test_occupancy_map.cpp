@@ -76,4 +76,84 @@ TEST(OccupancyMap, BadSizesAndFramesAreRefused) {
 }
 
 }  // namespace
+/// A random frame for a map: a plain picture, or metres with an origin and a yaw.
+OccupancyMap in_random_frame(OccupancyMap map, Random& random) {
+  if (random.uniform() < 0.5) return map;
+  return {map.width(),
+          map.height(),
+          map.cells(),
+          random.uniform(0.01, 3.0),
+          {random.uniform(-90.0, 90.0), random.uniform(-90.0, 90.0), random.uniform(-4.0, 4.0)}};
+}
+
+TEST(OccupancyMap, APartLiesWhereItLayExactly) {
+  Random random(21);
+  for (int i = 0; i < 300; ++i) {
+    const OccupancyMap map = in_random_frame(test::random_map(random, 2, 60), random);
+    const auto below = [&](int n) { return static_cast<int>(random.index(static_cast<std::size_t>(n))); };
+    const int c = below(map.width());
+    const int r = below(map.height());
+    const PixelBox box{c, r, 1 + below(map.width() - c), 1 + below(map.height() - r)};
+    const OccupancyMap part = map.cropped(box);
+    ASSERT_EQ(part.resolution(), map.resolution());
+    ASSERT_EQ(part.is_metric(), map.is_metric());
+    for (int k = 0; k < 50; ++k) {
+      const Eigen::Vector2d point =
+          map.to_world({random.uniform(-2.0, map.width() + 2.0), random.uniform(-2.0, map.height() + 2.0)});
+      const Pixel whole = OccupancyMap::pixel_of(map.to_pixel(point));
+      const Pixel there{whole.c - box.c, whole.r - box.r};
+      ASSERT_EQ(OccupancyMap::pixel_of(part.to_pixel(point)), there);
+      ASSERT_EQ(part.is_free(there), map.is_free(whole) && part.contains(there));
+      ASSERT_NEAR((part.to_world(part.to_pixel(point)) - point).norm(), 0.0, 1e-9);
+    }
+    const OccupancyMap again(part.width(), part.height(), part.cells(), part.resolution(), part.origin());
+    if (!map.is_metric()) continue;
+    ASSERT_NEAR((again.to_world({0.3, 0.7}) - part.to_world({0.3, 0.7})).norm(), 0.0, 1e-9);
+  }
+}
+
+TEST(OccupancyMap, WhatIsFreeInLargerPixelsIsFree) {
+  Random random(22);
+  for (int i = 0; i < 200; ++i) {
+    const OccupancyMap map = in_random_frame(test::random_map(random, 2, 60), random);
+    const int factor = 1 << random.index(4);
+    const OccupancyMap coarse = map.coarsened(factor);
+    ASSERT_EQ(coarse.coarseness(), factor);
+    ASSERT_DOUBLE_EQ(coarse.resolution(), factor * map.resolution());
+    for (int r = 0; r < coarse.height() * factor; ++r) {
+      for (int c = 0; c < coarse.width() * factor; ++c) {
+        const Pixel larger = OccupancyMap::pixel_of(coarse.to_pixel(map.center({c, r})));
+        ASSERT_EQ(larger, (Pixel{c / factor, r / factor}));
+        ASSERT_TRUE(!coarse.is_free(larger) || map.is_free({c, r}));
+      }
+    }
+    for (int r = 0; r < map.height() / factor; ++r) {  // whole blocks alone
+      for (int c = 0; c < map.width() / factor; ++c) {
+        bool free = true;
+        for (int k = 0; k < factor * factor; ++k) {
+          free = free && map.is_free({c * factor + k % factor, r * factor + k / factor});
+        }
+        ASSERT_EQ(coarse.is_free({c, r}), free);
+      }
+    }
+  }
+}
+
+TEST(OccupancyMap, LargerPixelsKnowUnknownFromOccupied) {
+  const OccupancyMap coarse = test::map_from_rows({"..?.", "..?#", "....", "...."}).coarsened(2);
+  EXPECT_EQ(coarse.at({0, 0}), Cell::free);
+  EXPECT_EQ(coarse.at({1, 0}), Cell::occupied);
+  EXPECT_EQ(test::map_from_rows({".?", ".."}).coarsened(2).at({0, 0}), Cell::unknown);
+  EXPECT_EQ(test::map_from_rows({"..."}).coarsened(2).at({0, 0}), Cell::occupied);  // the block leaves the map
+}
+
+TEST(OccupancyMap, PartsAndFactorsThatAreNoneAreRefused) {
+  const OccupancyMap map = test::map_from_rows({"....", "...."});
+  for (const PixelBox& box : {PixelBox{0, 0, 5, 1}, PixelBox{-1, 0, 2, 1}, PixelBox{0, 0, 0, 1}, PixelBox{3, 1, 1, 2},
+                              PixelBox{2147483647, 0, 2147483647, 1}}) {
+    EXPECT_THROW(map.cropped(box), MapError);
+  }
+  for (const int factor : {0, -2, 3, 1 << 20}) EXPECT_THROW(map.coarsened(factor), MapError);
+}
+
 }  // namespace lrrt

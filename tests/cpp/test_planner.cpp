@@ -21,7 +21,7 @@ namespace {
 class FixedPredictor final : public RegionPredictor {
  public:
   enum class Kind { corridor, empty, full, far_from_it };
-  explicit FixedPredictor(Kind kind) : kind_(kind) {}
+  explicit FixedPredictor(Kind kind, int detail = std::numeric_limits<int>::max()) : kind_(kind), detail_(detail) {}
 
   Prediction predict(const OccupancyMap& map, const Eigen::Vector2d& start,
                      const Eigen::Vector2d& goal) const override {
@@ -40,8 +40,11 @@ class FixedPredictor final : public RegionPredictor {
     return {PromisingRegion(map, std::move(probability), from, to), {}};
   }
 
+  int detail() const override { return detail_; }
+
  private:
   Kind kind_;
+  int detail_;
 };
 
 std::shared_ptr<const RegionPredictor> corridor() {
@@ -120,7 +123,9 @@ TEST_P(EveryPlanner, IsHonestOnRandomMapsWithRandomRegions) {
     options.iteration_limit = vouched_for(GetParam()) ? 30000 : 3000;
     options.seed = static_cast<std::uint64_t>(i);
     const auto kind = static_cast<FixedPredictor::Kind>(i / 2 % 4);
-    const PlanResult result = Planner(std::make_shared<FixedPredictor>(kind), options).plan({map, start, goal, radius});
+    const int detail = i % 4 == 3 ? 20 : 60;  // pixels a side: with fewer than the map has, guidance is coarser than it
+    const auto predictor = std::make_shared<FixedPredictor>(kind, detail);
+    const PlanResult result = Planner(predictor, options).plan({map, start, goal, radius});
     expect_honest(result, inflated(map, radius), start, goal);
     solved += static_cast<int>(result.solved());
     disconnected += static_cast<int>(result.status == PlanStatus::not_connected);
@@ -286,6 +291,25 @@ TEST(Planner, TimeAlsoEndsAnIterationOfManyMotions) {
   EXPECT_LT(result.timings.plan, 2000.0);
   options.range = 1e-17;
   EXPECT_THROW(Planner(nullptr, options).plan({map, {1, 1}, {49, 39}}), RequestError);
+}
+
+TEST(Planner, GuidanceIsAsCoarseAsItCanBe) {
+  std::vector<std::string> rows(64, std::string(64, '.'));
+  for (std::size_t r = 0; r < 64; ++r) rows[r][31] = r == 40 || r == 41 ? '.' : '#';  // a gap of two pixels
+  const OccupancyMap map = test::map_from_rows(rows);
+  PlanOptions options = unguided("RRTConnect");
+  options.strategy = Strategy::frontier;
+  const auto coarseness = [&](int detail, const Eigen::Vector2d& goal) {
+    const auto predictor = std::make_shared<FixedPredictor>(FixedPredictor::Kind::corridor, detail);
+    const PlanResult result = Planner(predictor, options).plan({map, {4.5, 4.5}, goal});
+    expect_honest(result, map, {4.5, 4.5}, goal);
+    return result.region->coarseness();
+  };
+  EXPECT_EQ(coarseness(64, {12.5, 60.5}), 1);
+  EXPECT_EQ(coarseness(63, {12.5, 60.5}), 2);
+  EXPECT_EQ(coarseness(8, {12.5, 60.5}), 8);
+  EXPECT_EQ(coarseness(8, {60.5, 60.5}), 2);  // in larger pixels the gap is closed
+  EXPECT_EQ(coarseness(8, {30.5, 60.5}), 1);  // the goal stands at the wall
 }
 
 TEST(Planner, APredictorThatReturnsAnotherSizeIsRefused) {

@@ -198,11 +198,11 @@ TEST(GuidedHeadings, FollowTheRegionInAnyFrame) {
     const Pixel start{6, 10};
     const Pixel goal{50, 53};
     const PromisingRegion region(*map, probability, start, goal);
-    const auto collision = std::make_shared<const CollisionMap>(*map);
+    const auto shared = std::make_shared<const OccupancyMap>(*map);
     for (const bool can_reverse : {false, true}) {
-      auto strategy = std::make_unique<FrontierStrategy>(std::make_shared<const OccupancyMap>(*map), region, start,
-                                                         goal, FrontierOptions{60.0, Growth::batch});
-      GuidedSource source(collision, MixedSampler(std::move(strategy), UniformStrategy(side, side), 1.0, 5),
+      auto strategy =
+          std::make_unique<FrontierStrategy>(shared, region, start, goal, FrontierOptions{60.0, Growth::batch});
+      GuidedSource source({shared, MixedSampler(std::move(strategy), UniformStrategy(side, side), 1.0, 5)},
                           std::make_shared<PoseProjection>(can_reverse), map->center(start), map->center(goal));
       const auto space = std::make_shared<ob::SE2StateSpace>();
       bound(*space);

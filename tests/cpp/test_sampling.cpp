@@ -129,10 +129,10 @@ struct Guided {
     problem->setStartAndGoalStates(start, start);
     planner = std::make_shared<ompl::geometric::RRT>(si);
     planner->setProblemDefinition(problem);
-    source = guide(
-        *planner, collision,
-        MixedSampler(std::make_unique<RegionStrategy>(left_third(collision->map())), UniformStrategy(30, 30), alpha, 5),
-        projection);
+    const std::shared_ptr<const OccupancyMap> map(collision, &collision->map());
+    source =
+        guide(*planner, {map, {std::make_unique<RegionStrategy>(left_third(*map)), UniformStrategy(30, 30), alpha, 5}},
+              projection);
   }
 
   static std::vector<Cell> walls() {

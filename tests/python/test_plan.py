@@ -259,3 +259,28 @@ def test_an_outline_needs_headings() -> None:
     with pytest.raises(lrrt.RequestError, match="motion"):
         lrrt.plan(OPEN, (10, 10), (50, 40), strategy="uniform", motion="flying")
     assert lrrt.plan(OPEN, (10, 10), (50, 40), strategy="uniform").headings.shape == (0,)
+
+
+def test_a_large_map_is_guided_in_larger_pixels_and_drawn_where_it_lies() -> None:
+    occupied = np.zeros((1500, 1290), dtype=bool)
+    occupied[700:720, :1200] = True
+    map_ = lrrt.OccupancyMap.from_array(occupied)
+    result = lrrt.plan(map_, (100, 100), (100, 1400))
+    assert result.solved and result.region is not None
+    assert result.region.coarseness == 2
+    assert result.region.mask.shape == (750, 645)
+    images = [image for image in lrrt.draw(map_, result=result).get_images() if image.get_label() == "region"]
+    assert images[0].get_extent() == [0, 1290, 1500, 0]
+
+
+def test_parts_and_larger_pixels_of_a_map_keep_its_units() -> None:
+    map_ = lrrt.OccupancyMap.from_array(np.eye(8, dtype=bool), resolution=0.5, origin=(1.0, 2.0, 0.3))
+    coarse, part = map_.coarsened(2), map_.cropped(1, 2, 4, 5)
+    assert (coarse.width, coarse.coarseness, coarse.resolution) == (4, 2, 1.0)
+    assert np.allclose(coarse.to_world((1.5, 2.5)), map_.to_world((3.0, 5.0)))
+    assert np.allclose(part.to_world((0.0, 0.0)), map_.to_world((1.0, 2.0)))
+    assert np.array_equal(part.cells, map_.cells[2:7, 1:5])
+    with pytest.raises(lrrt.MapError, match="power of two"):
+        map_.coarsened(3)
+    with pytest.raises(lrrt.MapError, match="inside the map"):
+        map_.cropped(5, 5, 4, 4)

@@ -7,14 +7,6 @@
 
 namespace lrrt {
 
-/// Axis-aligned box of pixels: columns [c, c + width), rows [r, r + height).
-struct PixelBox {
-  int c = 0;
-  int r = 0;
-  int width = 0;
-  int height = 0;
-};
-
 /// Smallest box that holds both boxes.
 PixelBox united(const PixelBox& a, const PixelBox& b);
 

@@ -22,6 +22,14 @@ struct Pixel {
   friend bool operator!=(Pixel a, Pixel b) { return !(a == b); }
 };
 
+/// Axis-aligned box of pixels: columns [c, c + width), rows [r, r + height).
+struct PixelBox {
+  int c = 0;
+  int r = 0;
+  int width = 0;
+  int height = 0;
+};
+
 /// A position and a heading in the plane: of a robot, or of a map's lower-left corner in its frame.
 struct Pose2 {
   double x = 0.0;    ///< map units
@@ -64,10 +72,13 @@ class OccupancyMap {
   const std::vector<Cell>& cells() const { return cells_; }
 
   /// True for a map in metres, false for a plain picture.
-  bool is_metric() const { return metric_; }
-  /// Map units per pixel; 1 for a plain picture.
-  double resolution() const { return resolution_; }
-  Pose2 origin() const { return origin_; }
+  bool is_metric() const { return frame_.metric; }
+  /// Map units per pixel; 1 for a plain picture, unless it was coarsened.
+  double resolution() const { return frame_.resolution * frame_.coarseness; }
+  /// Pose of the lower-left corner of a metric map's lower-left pixel.
+  Pose2 origin() const;
+  /// Pixels along either side of this map's pixels in the map that it was made from, see coarsened(); else 1.
+  int coarseness() const { return frame_.coarseness; }
 
   bool contains(Pixel p) const { return p.c >= 0 && p.r >= 0 && p.c < width_ && p.r < height_; }
   /// Row-major index of a pixel that the map contains.
@@ -96,18 +107,35 @@ class OccupancyMap {
   OccupancyMap resolved(UnknownIs meaning) const;
   /// The same frame with other cells. @throws MapError when their number does not fit.
   OccupancyMap with_cells(std::vector<Cell> cells) const;
+  /// A part of the map. Map units mean the same on it, exactly: a pixel that holds a point holds it on both.
+  /// @throws MapError when the box is empty or leaves the map.
+  OccupancyMap cropped(const PixelBox& box) const;
+  /// The map in larger pixels: free where all of factor × factor pixels are, occupied where one of them is or the block
+  /// leaves the map, else unknown. Map units mean the same on it, exactly, so what is free on it is free on this map.
+  /// @throws MapError when the factor is no power of two from 1 to 16384.
+  OccupancyMap coarsened(int factor) const;
+  /// The least factor with which coarsened() leaves at most so many pixels a side, one at the least.
+  int coarsening_to(int most_side) const;
 
  private:
-  OccupancyMap(int width, int height, std::vector<Cell> cells, double resolution, Pose2 origin, bool metric);
+  /// From map units to the pixels of the map that this one was made from, and on to its own.
+  struct Frame {
+    bool metric = false;
+    double resolution = 1.0;  ///< of the original, as are the next four
+    Pose2 origin{};
+    double cos_yaw = 1.0;
+    double sin_yaw = 0.0;
+    double height = 0.0;
+    Eigen::Vector2d corner = Eigen::Vector2d::Zero();  ///< of this map, pixels of the original, whole numbers
+    int coarseness = 1;                                ///< a power of two, so that no division rounds
+  };
+
+  OccupancyMap(int width, int height, std::vector<Cell> cells, const Frame& frame);
 
   int width_;
   int height_;
   std::vector<Cell> cells_;
-  double resolution_;
-  Pose2 origin_;
-  bool metric_;
-  double cos_yaw_;
-  double sin_yaw_;
+  Frame frame_;
 };
 
 }  // namespace lrrt

@@ -31,11 +31,12 @@ std::vector<std::string> guidable_planners();
 Growth growth_of(const std::string& planner);
 
 /// The sampler of a strategy over a region, bridged where it has gaps.
-/// @param start,goal map units, on free pixels of the map and joined by free ones.
+/// @param map the one that the region was predicted for. @param start,goal map units, on free pixels of the map and
+/// joined by free ones. @param options with a range above 0.
 /// @throws RequestError when the region's size is not the map's.
-MixedSampler make_sampler(const std::shared_ptr<const CollisionMap>& map, const PromisingRegion& region,
-                          const Eigen::Vector2d& start, const Eigen::Vector2d& goal, Growth growth,
-                          const GuideOptions& options);
+MapSampler make_sampler(const std::shared_ptr<const OccupancyMap>& map, const PromisingRegion& region,
+                        const Eigen::Vector2d& start, const Eigen::Vector2d& goal, Growth growth,
+                        const GuideOptions& options);
 
 /// Makes a planner of any OMPL set-up draw from a promising region, whatever way it asks for samples: the sampler
 /// allocators of its space information, the informed sampler of its objective, the motions and the better paths that
@@ -45,8 +46,8 @@ MixedSampler make_sampler(const std::shared_ptr<const CollisionMap>& map, const 
 /// no objective, it gets that of the path's length, OMPL's own default.
 ///
 /// @param map where the robot's reference point may be: for a robot with a body, inflated by what it needs at least.
-/// @param region of the same size. @param projection how the planner's states touch the map; by default
-/// projection_of() its space.
+/// @param region of the same map, or of the map coarsened. @param projection how the planner's states touch the map; by
+/// default projection_of() its space.
 /// @return the source of the samples; its counts tell how many were guided.
 /// @throws RequestError for a planner that cannot be guided (it would plan unguided without a word), that is set up
 /// already or has no problem, and for a start or goal that does not lie on a free pixel of the map.
@@ -55,7 +56,7 @@ std::shared_ptr<GuidedSource> guide(ompl::base::Planner& planner, const std::sha
                                     std::shared_ptr<const MapProjection> projection = nullptr);
 
 /// The same for a sampler that exists already. @throws RequestError as above but for start and goal.
-std::shared_ptr<GuidedSource> guide(ompl::base::Planner& planner, const std::shared_ptr<const CollisionMap>& map,
-                                    MixedSampler sampler, const std::shared_ptr<const MapProjection>& projection);
+std::shared_ptr<GuidedSource> guide(ompl::base::Planner& planner, MapSampler sampler,
+                                    const std::shared_ptr<const MapProjection>& projection);
 
 }  // namespace lrrt

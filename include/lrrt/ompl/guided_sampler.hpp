@@ -9,11 +9,18 @@
 #include <utility>
 #include <vector>
 
+#include "lrrt/map/occupancy_map.hpp"
 #include "lrrt/ompl/map_projection.hpp"
-#include "lrrt/ompl/map_validity.hpp"
 #include "lrrt/sampling/mixed_sampler.hpp"
 
 namespace lrrt {
+
+/// A sampler, and the map in whose pixels it speaks: one that may have larger pixels than the map that motions are
+/// checked on.
+struct MapSampler {
+  std::shared_ptr<const OccupancyMap> map;
+  MixedSampler points;
+};
 
 /// Where guided states come from: points of the map drawn by a MixedSampler, brought to map units. One source may feed
 /// several samplers of the same planner, so that its counts cover them all. Not for concurrent use.
@@ -24,14 +31,13 @@ namespace lrrt {
 class GuidedSource {
  public:
   /// @param start,goal map units.
-  GuidedSource(std::shared_ptr<const CollisionMap> map, MixedSampler sampler,
-               std::shared_ptr<const MapProjection> projection, const Eigen::Vector2d& start,
+  GuidedSource(MapSampler sampler, std::shared_ptr<const MapProjection> projection, const Eigen::Vector2d& start,
                const Eigen::Vector2d& goal)
-      : map_(std::move(map)),
-        sampler_(std::move(sampler)),
+      : map_(std::move(sampler.map)),
+        sampler_(std::move(sampler.points)),
         projection_(std::move(projection)),
-        start_(map_->map().to_pixel(start)),
-        goal_(map_->map().to_pixel(goal)) {}
+        start_(map_->to_pixel(start)),
+        goal_(map_->to_pixel(goal)) {}
 
   /// The next state: position and heading from the sampler, its other coordinates from OMPL's own one.
   void place(ompl::base::State* state, ompl::base::StateSampler& other);
@@ -60,9 +66,7 @@ class GuidedSource {
   DrawCounts counts() const { return sampler_.counts(); }
 
  private:
-  Eigen::Vector2d pixel_point(const ompl::base::State* state) const {
-    return map_->map().to_pixel(projection_->read(state));
-  }
+  Eigen::Vector2d pixel_point(const ompl::base::State* state) const { return map_->to_pixel(projection_->read(state)); }
   /// Moves a state to a point, pixel coordinates, and its other coordinates anywhere.
   void write(const Eigen::Vector2d& point, ompl::base::State* state, ompl::base::StateSampler& other);
   /// Moves a state whose position and heading are all to a point, pixel coordinates, and turns it anywhere.
@@ -70,7 +74,7 @@ class GuidedSource {
   /// Turns a guided state at a point, pixel coordinates, to the way on from there, more often than not.
   void align(const Eigen::Vector2d& point, ompl::base::State* state);
 
-  std::shared_ptr<const CollisionMap> map_;
+  std::shared_ptr<const OccupancyMap> map_;
   MixedSampler sampler_;
   std::shared_ptr<const MapProjection> projection_;
   Eigen::Vector2d start_;  // pixel coordinates

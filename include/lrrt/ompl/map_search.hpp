@@ -21,7 +21,7 @@ class MapSearch {
  public:
   /// @param start,goal both free; their headings count where the space has any, in [-π, π).
   /// @param options with a range above 0, see suitable_range(). @param limits those of the space's motion validator.
-  MapSearch(SearchSpace space, const Pose2& start, const Pose2& goal, MixedSampler sampler, const PlanOptions& options,
+  MapSearch(SearchSpace space, const Pose2& start, const Pose2& goal, MapSampler sampler, const PlanOptions& options,
             std::shared_ptr<SearchLimits> limits);
 
   /// Call once. Runs until a path is good enough or a limit is reached; fills status, path, cost, counters and history

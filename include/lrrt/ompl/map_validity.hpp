@@ -5,8 +5,11 @@
 #include <ompl/base/StateValidityChecker.h>
 
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <utility>
 
+#include "lrrt/map/clearance_bound.hpp"
 #include "lrrt/map/distance_field.hpp"
 #include "lrrt/map/occupancy_map.hpp"
 #include "lrrt/map/segment_walk.hpp"
@@ -15,28 +18,35 @@
 
 namespace lrrt {
 
-/// A map made ready for collision checks: its frame, its distance field and the walk over it.
+/// A map made ready for collision checks: its frame, its distances and the walk over it. Safe to share between threads.
 class CollisionMap {
  public:
-  explicit CollisionMap(OccupancyMap map) : map_(std::move(map)), field_(map_), walk_(field_) {}
+  explicit CollisionMap(OccupancyMap map) : CollisionMap(std::make_shared<const OccupancyMap>(std::move(map))) {}
+  /// @param map not null.
+  explicit CollisionMap(std::shared_ptr<const OccupancyMap> map) : map_(std::move(map)), bound_(*map_), walk_(bound_) {}
   CollisionMap(const CollisionMap&) = delete;
   CollisionMap& operator=(const CollisionMap&) = delete;
 
-  const OccupancyMap& map() const { return map_; }
-  const DistanceField& field() const { return field_; }
+  const OccupancyMap& map() const { return *map_; }
+  /// The exact distances; computed when they are first asked for where motions are checked by a coarser bound.
+  const DistanceField& field() const;
+  /// What motions are checked by.
+  const ClearanceBound& bound() const { return bound_; }
   /// True when a point, map units, is free.
-  bool is_free(const Eigen::Vector2d& point) const { return walk_.is_free(map_.to_pixel(point)); }
+  bool is_free(const Eigen::Vector2d& point) const { return walk_.is_free(map_->to_pixel(point)); }
   /// True when every pixel that a straight motion touches is free. @param from,to map units.
   bool is_free(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
-    return walk_.is_free(map_.to_pixel(from), map_.to_pixel(to));
+    return walk_.is_free(map_->to_pixel(from), map_->to_pixel(to));
   }
   /// Distance from a point to the nearest obstacle, map units: a lower bound of it, never negative.
   double clearance(const Eigen::Vector2d& point) const;
 
  private:
-  OccupancyMap map_;
-  DistanceField field_;
+  std::shared_ptr<const OccupancyMap> map_;
+  ClearanceBound bound_;
   SegmentWalk walk_;
+  mutable std::once_flag asked_;
+  mutable std::optional<DistanceField> field_;
 };
 
 /// OMPL's view of CollisionMap::is_free for states.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
 #include "lrrt/map/occupancy_map.hpp"
 #include "lrrt/region/promising_region.hpp"
@@ -29,6 +30,10 @@ class RegionPredictor {
   /// @throws RequestError when one of them is not on a free pixel. @throws ModelError when the model fails.
   virtual Prediction predict(const OccupancyMap& map, const Eigen::Vector2d& start,
                              const Eigen::Vector2d& goal) const = 0;
+  /// Longest side, pixels, of a map of which the predictor sees every pixel. Planner shows it larger maps coarsened
+  /// down to this (OccupancyMap::coarsened), so that a prediction and what follows from it cost no more than on such a
+  /// map.
+  virtual int detail() const { return std::numeric_limits<int>::max(); }
 };
 
 }  // namespace lrrt

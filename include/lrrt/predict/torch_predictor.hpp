@@ -34,6 +34,8 @@ class TorchScriptPredictor final : public RegionPredictor {
 
   const ModelInfo& info() const;
   Prediction predict(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal) const override;
+  /// Four pixels of a map for every pixel of the picture: what is finer does not show.
+  int detail() const override { return 4 * info().input.size; }
 
  private:
   class Network;

@@ -20,6 +20,8 @@ class PromisingRegion {
 
   int width() const { return width_; }
   int height() const { return height_; }
+  /// OccupancyMap::coarseness() of the map that the region was predicted for: above 1 for a region on larger pixels.
+  int coarseness() const { return coarseness_; }
   /// Row-major probability of the promising class, width × height values.
   const std::vector<float>& probability() const { return probability_; }
   /// Row-major, 1 where a pixel is free and promising, else 0.
@@ -60,6 +62,7 @@ class PromisingRegion {
  private:
   int width_;
   int height_;
+  int coarseness_;
   std::vector<float> probability_;
   std::vector<std::uint8_t> mask_;
   std::size_t area_;
