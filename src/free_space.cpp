@@ -87,6 +87,14 @@ const std::shared_ptr<const CollisionBody>& FreeSpace::body(const PlanRequest& r
   return body_;
 }
 
+bool FreeSpace::is_free(const PlanRequest& request, const Pose2& from, const Pose2& to) {
+  if (request.motion == Motion::plane) return grown_.collision()->is_free({from.x, from.y}, {to.x, to.y});
+  const CollisionBody& robot = *body(request);
+  const double reach = robot.outline().circumscribed_radius();
+  if (request.motion == Motion::turning) return robot.is_free(PoseMotion(from, to, reach));
+  return robot.is_free(PoseMotion::arc(from, to, reach));
+}
+
 /// Gaps that no heading fits through are closed, and no prediction leads there.
 ///
 /// inflated() asks the worst point of each pixel, so it may close what is open by a part of a pixel, a gap or the pixel

@@ -32,6 +32,9 @@ class FreeSpace {
   /// Looks at start and goal.
   /// @param request a query for the same robot on the same map. @param goal_tolerance map units.
   Prepared prepare(const PlanRequest& request, double goal_tolerance);
+  /// True when the robot of the request touches nothing along a straight line or, where it drives on them, along the
+  /// one arc from pose to pose.
+  bool is_free(const PlanRequest& request, const Pose2& from, const Pose2& to);
 
  private:
   Prepared prepare_plane(const PlanRequest& request, double goal_tolerance);

@@ -160,6 +160,7 @@ struct PlanResult {
   std::vector<CostStep> cost_history;             ///< strictly falling costs (RRT*)
   std::vector<TreeEdge> tree;                     ///< only with PlanOptions::keep_tree; straight, also for arcs
   std::shared_ptr<const PromisingRegion> region;  ///< the region that was used; on large maps in larger pixels
+  double reused = 0.0;  ///< share of the path's cost that Session::replan() took over from the path before
   PlanTimings timings{};
 
   bool solved() const { return status == PlanStatus::solved; }

@@ -18,6 +18,8 @@ class Planner {
   explicit Planner(std::shared_ptr<const RegionPredictor> predictor = nullptr, PlanOptions options = {});
 
   const PlanOptions& options() const { return options_; }
+  /// Null where planning is unguided.
+  const std::shared_ptr<const RegionPredictor>& predictor() const { return predictor_; }
 
   /// @throws RequestError when a number of the request is not finite. @throws ModelError when the prediction fails.
   PlanResult plan(const PlanRequest& request) const;

@@ -60,6 +60,16 @@ void PoseMotion::append(double length, double curvature) {
   end_ = along(piece, length);
 }
 
+PoseMotion PoseMotion::arc(const Pose2& from, const Pose2& to, double reach) {
+  PoseMotion motion(from, to, reach);
+  const double chord = std::hypot(to.x - from.x, to.y - from.y);
+  const double half = 0.5 * motion.turn_;
+  const double ahead = std::cos(from.yaw + half) * (to.x - from.x) + std::sin(from.yaw + half) * (to.y - from.y);
+  const double length = std::copysign(half == 0.0 ? chord : chord * half / std::sin(half), ahead);
+  if (length != 0.0) motion.append(length, motion.turn_ / length);
+  return motion;
+}
+
 const PoseMotion::Piece& PoseMotion::piece_at(double spent) const {
   std::size_t i = count_ - 1;
   while (i > 0 && pieces_[i].begin > spent) --i;

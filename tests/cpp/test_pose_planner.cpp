@@ -27,49 +27,6 @@ double angle_between(double a, double b) {
   return std::abs(std::remainder(a - b, 2.0 * pi));
 }
 
-/// Independent of the library's checks: true when a polygon at a pose reaches into a pixel that is not free, or off the
-/// map, by more than a hair. Polygon against pixel by separating axes for every triangle of a fan, so the polygon has
-/// to be convex.
-bool overlaps_blocked(const OccupancyMap& map, const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d& at,
-                      double heading) {
-  std::vector<Eigen::Vector2d> corners;
-  for (const Eigen::Vector2d& v : outline) {
-    const Eigen::Vector2d turned(std::cos(heading) * v.x() - std::sin(heading) * v.y(),
-                                 std::sin(heading) * v.x() + std::cos(heading) * v.y());
-    corners.push_back(map.to_pixel(at + turned));
-  }
-  Eigen::Vector2d low = corners.front();
-  Eigen::Vector2d high = corners.front();
-  for (const Eigen::Vector2d& c : corners) {
-    low = low.cwiseMin(c);
-    high = high.cwiseMax(c);
-  }
-  constexpr double hair = 1e-7;
-  const auto apart = [&](Pixel p, const Eigen::Vector2d& axis) {
-    double least = std::numeric_limits<double>::infinity();
-    double most = -least;
-    for (const Eigen::Vector2d& c : corners) {
-      least = std::min(least, axis.dot(c));
-      most = std::max(most, axis.dot(c));
-    }
-    const double middle = axis.dot(Eigen::Vector2d(p.c + 0.5, p.r + 0.5));
-    const double half = 0.5 * axis.lpNorm<1>();
-    return least > middle + half - hair || most < middle - half + hair;
-  };
-  for (int r = static_cast<int>(std::floor(low.y())); r <= static_cast<int>(std::floor(high.y())); ++r) {
-    for (int c = static_cast<int>(std::floor(low.x())); c <= static_cast<int>(std::floor(high.x())); ++c) {
-      if (map.is_free({c, r})) continue;
-      bool separated = apart({c, r}, {1.0, 0.0}) || apart({c, r}, {0.0, 1.0});
-      for (std::size_t i = 0; i < corners.size() && !separated; ++i) {
-        const Eigen::Vector2d edge = (corners[(i + 1) % corners.size()] - corners[i]).normalized();
-        separated = apart({c, r}, {-edge.y(), edge.x()});
-      }
-      if (!separated) return true;
-    }
-  }
-  return false;
-}
-
 /// A map of blocks in metres with an origin and a yaw, or in pixels, and two poses on it at which the robot fits.
 struct Query {
   OccupancyMap map;
@@ -94,7 +51,7 @@ Pose2 random_pose(const OccupancyMap& map, const Polygon& robot, Random& random)
     const Eigen::Vector2d pixel(random.uniform(0, map.width()), random.uniform(0, map.height()));
     const Eigen::Vector2d at = map.to_world(pixel);
     pose = {at.x(), at.y(), random.uniform(-pi, pi)};
-    if (!overlaps_blocked(map, robot.vertices(), at, pose.yaw)) break;
+    if (!test::overlaps_blocked(map, robot.vertices(), at, pose.yaw)) break;
   }
   return pose;
 }
@@ -155,8 +112,8 @@ double expect_drivable(const PlanResult& result, const PlanRequest& request, dou
 void expect_honest(const PlanResult& result, const PlanRequest& request) {
   const OccupancyMap& map = request.map.get();
   const std::vector<Eigen::Vector2d>& outline = request.outline->vertices();
-  const bool start_fits = !overlaps_blocked(map, outline, request.start, request.start_heading);
-  const bool goal_fits = !overlaps_blocked(map, outline, request.goal, request.goal_heading);
+  const bool start_fits = !test::overlaps_blocked(map, outline, request.start, request.start_heading);
+  const bool goal_fits = !test::overlaps_blocked(map, outline, request.goal, request.goal_heading);
   if (result.status == PlanStatus::start_occupied) {
     EXPECT_FALSE(start_fits);
   }
@@ -180,7 +137,7 @@ void expect_honest(const PlanResult& result, const PlanRequest& request) {
   double length = 0.0;
   double turned = 0.0;
   for (std::size_t i = 0; i < result.path.size(); ++i) {
-    EXPECT_FALSE(overlaps_blocked(map, outline, result.path[i], result.headings[i])) << i;
+    EXPECT_FALSE(test::overlaps_blocked(map, outline, result.path[i], result.headings[i])) << i;
     if (i == 0) continue;
     const double move = (result.path[i] - result.path[i - 1]).norm();
     const double turn = angle_between(result.headings[i], result.headings[i - 1]);
@@ -323,7 +280,7 @@ TEST(PosePlannerCheck, AMarginIsKeptAroundAnOutline) {
   ASSERT_TRUE(result.solved());
   const std::vector<Eigen::Vector2d> grown = Polygon::rectangle(6.0, 5.0, 3.0).vertices();
   for (std::size_t i = 0; i < result.path.size(); ++i) {
-    EXPECT_FALSE(overlaps_blocked(map, grown, result.path[i], result.headings[i])) << i;
+    EXPECT_FALSE(test::overlaps_blocked(map, grown, result.path[i], result.headings[i])) << i;
   }
 }
 

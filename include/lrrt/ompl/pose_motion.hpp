@@ -23,6 +23,10 @@ class PoseMotion {
   /// @param reach distance from the reference point to the robot's farthest point, map units.
   PoseMotion(const Pose2& from, const Pose2& to, double reach);
 
+  /// The one arc or straight line, forwards or backwards, that leads from pose to pose; where none does, one that
+  /// misses its end.
+  static PoseMotion arc(const Pose2& from, const Pose2& to, double reach);
+
   /// Appends a piece to a motion of arcs, of which the first call makes this one. @param length map units; negative
   /// backwards. @param curvature 1 / map units; positive turns from x towards y.
   void append(double length, double curvature);

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "steps.hpp"
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "lrrt/error.hpp"
+#include "lrrt/ompl/guide.hpp"
+#include "lrrt/ompl/map_search.hpp"
+#include "lrrt/stopwatch.hpp"
+
+namespace lrrt {
+namespace {
+
+/// Longest side, pixels, of the maps on which start and goal are first looked for a way, where nothing is predicted.
+constexpr int unguided_detail = 1024;
+
+MapSampler sampler_for(const Prepared& prepared, const PromisingRegion* region, const PlanRequest& request,
+                       const PlanOptions& options) {
+  if (region == nullptr) {
+    const std::shared_ptr<const OccupancyMap> map(prepared.map, &prepared.map->map());
+    return {map, {nullptr, UniformStrategy(map->width(), map->height()), options.alpha, options.seed}};
+  }
+  return make_sampler(prepared.guidance, *region, request.start, request.goal, growth_of(options.planner),
+                      {options.strategy, options.alpha, options.range, options.seed});
+}
+
+SearchSpace space_for(const Prepared& prepared, const PlanRequest& request,
+                      const std::shared_ptr<SearchLimits>& limits) {
+  if (!prepared.body) return plane_space(prepared.map, limits);
+  return pose_space(prepared.map, prepared.body, request.motion, request.turning_radius, prepared.reach, limits);
+}
+
+/// The result of a query that ends where it starts; OMPL's planners take the goal for one more state to be reached.
+void arrive(const PlanRequest& request, PlanResult& result) {
+  result.status = PlanStatus::solved;
+  result.path = {request.start, request.start};
+  if (request.motion != Motion::plane) result.headings.assign(2, wrapped_angle(request.start_heading));
+  result.cost = 0.0;
+  result.cost_history = {{0.0, 0, 0.0}};
+}
+
+}  // namespace
+
+FreeSpace make_free_space(const PlanRequest& request, const RegionPredictor* predictor, PlanResult& result) {
+  const Stopwatch watch;
+  FreeSpace space(request, predictor != nullptr ? predictor->detail() : unguided_detail);
+  result.timings.prepare += watch.total_ms();
+  return space;
+}
+
+std::optional<Prepared> look(FreeSpace& space, const PlanRequest& request, const PlanOptions& options,
+                             PlanResult& result) {
+  const Stopwatch watch;
+  Prepared prepared = space.prepare(request, options.goal_tolerance);
+  result.timings.prepare += watch.total_ms();
+  if (prepared.hopeless) result.status = *prepared.hopeless;
+  if (prepared.arrived) arrive(request, result);
+  if (prepared.hopeless || prepared.arrived) return std::nullopt;
+  return prepared;
+}
+
+void take_region(Prediction prediction, const Prepared& prepared, const PlanRequest& request, PlanResult& result) {
+  const Stopwatch watch;
+  const OccupancyMap& map = *prepared.guidance;
+  PromisingRegion& region = prediction.region;
+  if (region.width() != map.width() || region.height() != map.height()) {
+    throw RequestError("the predictor returned a region of " + std::to_string(region.width()) + "×" +
+                       std::to_string(region.height()) + " pixels for a map of " + std::to_string(map.width()) + "×" +
+                       std::to_string(map.height()) + ": it must be as large as the map");
+  }
+  if (!region.connected()) {  // start and goal are joined, so there is a way to bridge its gaps
+    region = region.bridged(map, OccupancyMap::pixel_of(map.to_pixel(request.start)),
+                            OccupancyMap::pixel_of(map.to_pixel(request.goal)));
+  }
+  result.region = std::make_shared<const PromisingRegion>(std::move(region));
+  result.timings.encode = prediction.timings.encode;
+  result.timings.infer = prediction.timings.infer;
+  result.timings.region = prediction.timings.region + watch.total_ms();
+}
+
+void search(const Prepared& prepared, const PlanRequest& request, PlanOptions options, PlanResult& result) {
+  const Stopwatch watch;
+  if (options.range == 0.0) options.range = default_range(prepared, request);
+  const auto limits = std::make_shared<SearchLimits>(options.time_limit, options.iteration_limit, request.cancel);
+  MapSearch search(space_for(prepared, request, limits), pose(request.start, request.start_heading),
+                   pose(request.goal, request.goal_heading),
+                   sampler_for(prepared, result.region.get(), request, options), options, limits);
+  result.timings.prepare += watch.total_ms();
+  search.run(result);
+}
+
+}  // namespace lrrt

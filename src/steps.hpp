@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "free_space.hpp"
+#include "lrrt/plan.hpp"
+#include "lrrt/predict/region_predictor.hpp"
+
+namespace lrrt {
+
+/// The steps of one plan, in their order. Each adds its time to the result's.
+
+/// What a robot can reach on a request's map. @param predictor null where planning is unguided.
+FreeSpace make_free_space(const PlanRequest& request, const RegionPredictor* predictor, PlanResult& result);
+
+/// Looks at start and goal. @return nothing when no search is needed: then the result says how the query ends.
+std::optional<Prepared> look(FreeSpace& space, const PlanRequest& request, const PlanOptions& options,
+                             PlanResult& result);
+
+/// Takes a region that was predicted on the map of the guidance, its gaps closed.
+/// @throws RequestError when it is of another size.
+void take_region(Prediction prediction, const Prepared& prepared, const PlanRequest& request, PlanResult& result);
+
+/// Searches, guided by the result's region where it has one.
+void search(const Prepared& prepared, const PlanRequest& request, PlanOptions options, PlanResult& result);
+
+}  // namespace lrrt
