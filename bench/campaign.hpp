@@ -17,7 +17,9 @@ namespace lrrt::bench {
 struct Campaign {
   Json inputs;              ///< what was read or generated, with checksums
   std::string onnxruntime;  ///< version of the runtime that was loaded; empty when none was
+  std::string libtorch;     ///< the same
   std::vector<Job> jobs;
+  std::vector<std::string> notes;  ///< what the user should know before anything is run
 };
 
 /// Runs, by id, that end after so many iterations, whatever the clock says.

@@ -35,6 +35,10 @@ void warn(const Suite& suite, int jobs) {
   if (jobs > 1 && is_plan(suite)) say("--jobs above 1 shares caches and cores: compare iterations rather than times");
 }
 
+void say_notes(const Campaign& campaign) {
+  for (const std::string& note : campaign.notes) std::cerr << "note: " << note << '\n';
+}
+
 void write_outputs(const Request& request, const Suite& suite, const Json& document) {
   if (!request.csv.empty()) write_file(request.csv, is_plan(suite) ? plan_csv(document) : predict_csv(document));
   if (!request.ompl_log.empty()) write_file(request.ompl_log, ompl_log(document));
@@ -76,6 +80,7 @@ std::string heading(const Suite& suite, const Json& document) {
   std::string text = suite.title.empty() ? "" : suite.title + "\n";
   text += "lrrt " + versions.at("lrrt").get<std::string>() + ", OMPL " + versions.at("ompl").get<std::string>();
   if (versions.contains("onnxruntime")) text += ", ONNX Runtime " + versions.at("onnxruntime").get<std::string>();
+  if (versions.contains("libtorch")) text += ", libtorch " + versions.at("libtorch").get<std::string>();
   const Json& machine = document.at("machine");
   return text + "; " + machine.at("processor").get<std::string>() + ", " +
          std::to_string(machine.at("cores").get<unsigned>()) + " cores\n\n";
@@ -93,6 +98,7 @@ Outcome run_suite(const Request& request, const CancelToken& cancel) {
   const int jobs = is_plan(suite) ? request.jobs : 1;  // predictions side by side would measure each other
   warn(suite, jobs);
   Campaign campaign = is_plan(suite) ? plan_campaign(suite, cancel) : predict_campaign(suite, cancel);
+  say_notes(campaign);
   Json header = header_of(suite, campaign);
   if (!shard.whole()) header["shard"] = {{"number", shard.number}, {"of", shard.of}};
   campaign.jobs = jobs_of(std::move(campaign.jobs), shard);
@@ -110,6 +116,7 @@ Outcome run_replay(const Request& request, const CancelToken& cancel) {
   check_outputs(request, suite);
   Campaign campaign =
       is_plan(suite) ? plan_campaign(suite, cancel, replay_limits(before)) : predict_campaign(suite, cancel);
+  say_notes(campaign);
   check_inputs(before, campaign.inputs, request.replay);
   keep_jobs_of(before, campaign.jobs);
   Json header = header_of(suite, campaign);

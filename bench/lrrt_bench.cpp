@@ -27,6 +27,7 @@ constexpr const char* footer =
     "  lrrt_bench --suite paper --json paper.json        the paper's comparison; Ctrl-C, and the same command goes on\n"
     "  lrrt_bench --suite my.yaml --runs 30 --csv my.csv your own suite: copy bench/suites/smoke.yaml and edit it\n"
     "  lrrt_bench --suite peers --maps my_maps/          the planners of a suite on your own maps\n"
+    "  lrrt_bench --suite predict --models my.onnx       how fast your own models predict\n"
     "  lrrt_bench --replay paper.json                    runs it again: must give the same iterations and nodes\n\n"
     "What the report says:\n"
     "  first path    milliseconds from the call to the first path, prediction and all else included\n"
@@ -64,6 +65,11 @@ void add_options(CLI::App& app, Request& request, bool& list) {
       ->excludes(replay);
   app.add_option("--maps", changes.maps, "Your own map files or folders in place of the suite's, 5 random queries each")
       ->type_name("PATH...")
+      ->excludes(replay);
+  app.add_option("--models", changes.models,
+                 "Your own model files or patterns (ONNX; TorchScript where built with libtorch) in place of the "
+                 "suite's, for suites that predict")
+      ->type_name("FILE...")
       ->excludes(replay);
   app.add_option("--time-limit", changes.time_limit, "Longest search")
       ->check(CLI::PositiveNumber)

@@ -41,9 +41,10 @@ std::string ompl_version() {
 
 }  // namespace
 
-Json versions(const std::string& onnxruntime) {
+Json versions(const std::string& onnxruntime, const std::string& libtorch) {
   Json json = {{"lrrt", version}, {"ompl", ompl_version()}};
   if (!onnxruntime.empty()) json["onnxruntime"] = onnxruntime;
+  if (!libtorch.empty()) json["libtorch"] = libtorch;
   json["compiler"] = compiler();
   json["build"] = LRRT_BENCH_BUILD;
   return json;

@@ -7,9 +7,9 @@
 
 namespace lrrt::bench {
 
-/// Versions of what was measured: lrrt, OMPL, ONNX Runtime, compiler, build type.
-/// @param onnxruntime as a loaded model tells it; empty where none was needed.
-Json versions(const std::string& onnxruntime);
+/// Versions of what was measured: lrrt, OMPL, ONNX Runtime, libtorch, compiler, build type.
+/// @param onnxruntime,libtorch as a loaded model tells it; empty where none was needed.
+Json versions(const std::string& onnxruntime, const std::string& libtorch);
 
 /// Where it was measured: processor, cores, system. Nothing that names the machine.
 Json machine();

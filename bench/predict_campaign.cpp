@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <memory>
-#include <mutex>
+#include <set>
 #include <utility>
 
 #include "campaign.hpp"
-#include "lrrt/predict/onnx_predictor.hpp"
 #include "lrrt/stopwatch.hpp"
 #include "maze.hpp"
 #include "models.hpp"
@@ -12,7 +10,7 @@
 namespace lrrt::bench {
 namespace {
 
-/// First calls of a session pay for memory and caches that later ones find ready.
+/// Calls that are not measured: the first ones of a session pay for memory and caches that later ones find ready.
 constexpr int warm_up = 5;
 
 /// A map with a start and a goal at the ends of its longest way.
@@ -38,50 +36,83 @@ struct Setting {
   std::string model;
   std::filesystem::path file;
   OnnxOptions onnx;
+  int batch;
   int size;
 };
 
 std::string id_of(const Setting& s) {
   return s.model + " threads=" + std::to_string(s.onnx.threads) + (s.onnx.spinning ? " spinning" : "") +
-         " size=" + std::to_string(s.size);
+         (s.batch > 1 ? " batch=" + std::to_string(s.batch) : "") + " size=" + std::to_string(s.size);
 }
 
-Json measured(const OnnxPredictor& predictor, const std::vector<Scene>& scenes, int runs, const CancelToken& cancel) {
+/// One call: the scene's query, or as many copies of it as a batch has. So batches of any size do the same work.
+std::vector<Prediction> predicted(const RegionPredictor& predictor, const Scene& scene, int batch) {
+  if (batch > 1) {
+    const std::vector<RegionQuery> queries(static_cast<std::size_t>(batch), {scene.start, scene.goal});
+    return predictor.predict_many(scene.map, queries);
+  }
+  std::vector<Prediction> one;
+  one.push_back(predictor.predict(scene.map, scene.start, scene.goal));
+  return one;
+}
+
+/// Calls the predictor until there are `runs` predictions: a call is not cut, so there may be more.
+Json measured(const RegionPredictor& predictor, const std::vector<Scene>& scenes, int batch, int runs,
+              const CancelToken& cancel) {
   Json times = Json::array();
+  std::set<int> sides;
   std::size_t area = 0;
-  for (int i = -warm_up; i < runs && !cancel.cancelled(); ++i) {
+  const int calls = (runs - 1) / batch + 1;
+  for (int i = -warm_up; i < calls && !cancel.cancelled(); ++i) {
     const Scene& scene = scenes[static_cast<std::size_t>(i + warm_up) % scenes.size()];
     const Stopwatch watch;
-    const Prediction prediction = predictor.predict(scene.map, scene.start, scene.goal);
-    const double all = watch.total_ms();
+    const std::vector<Prediction> predictions = predicted(predictor, scene, batch);
+    const double share = watch.total_ms() / batch;
     if (i < 0) continue;
-    const PredictTimings& t = prediction.timings;
-    times.push_back({t.encode, t.infer, t.region, all});
-    area += prediction.region.area();
+    for (const Prediction& prediction : predictions) {
+      const PredictTimings& t = prediction.timings;
+      times.push_back({t.encode, t.infer, t.region, share});
+      sides.insert(prediction.input_side);
+      area += prediction.region.area();
+    }
   }
-  return {{"area", area}, {"times", std::move(times)}};
+  return {{"input_sides", sides}, {"area", area}, {"times", std::move(times)}};
 }
 
 Json run_setting(const Setting& setting, const PredictSuite& suite, const CancelToken& cancel) {
-  const OnnxPredictor predictor(setting.file, setting.onnx);
-  Json row = {{"model", setting.model}, {"name", predictor.info().name},   {"input_size", predictor.info().input.size},
-              {"size", setting.size},   {"threads", setting.onnx.threads}, {"spinning", setting.onnx.spinning}};
-  row.update(measured(predictor, make_scenes(suite, setting.size), suite.runs, cancel));
+  const LoadedModel model = load_model(setting.file, setting.onnx);
+  Json row = {{"model", setting.model}, {"name", model.info.name},         {"input_size", model.info.input.size},
+              {"size", setting.size},   {"threads", setting.onnx.threads}, {"spinning", setting.onnx.spinning},
+              {"batch", setting.batch}};
+  row.update(measured(*model.predictor, make_scenes(suite, setting.size), setting.batch, suite.runs, cancel));
   return row;
 }
 
-std::vector<Setting> settings_of(const Suite& suite, const PredictSuite& body) {
+/// A single thread has no other to wait for, and libtorch has no such setting.
+std::vector<bool> spinning_of(const PredictSuite& suite, const std::filesystem::path& file, int threads) {
+  return threads == 1 || is_torchscript(file) ? std::vector<bool>{false} : suite.spinning;
+}
+
+void add_settings(const PredictSuite& suite, const std::string& model, const std::filesystem::path& file,
+                  std::vector<Setting>& settings) {
+  for (const int threads : suite.threads) {
+    for (const bool spinning : spinning_of(suite, file, threads)) {
+      for (const int batch : suite.batch) {
+        for (const int size : suite.sizes) settings.push_back({model, file, {threads, spinning}, batch, size});
+      }
+    }
+  }
+}
+
+/// All settings of a suite. @param notes receives what was left out.
+std::vector<Setting> settings_of(const Suite& suite, std::vector<std::string>& notes) {
+  const auto& body = std::get<PredictSuite>(suite.body);
   std::vector<Setting> settings;
   for (const std::string& pattern : body.models) {
-    for (const std::string& model : matching_models(suite, pattern)) {
-      for (const int threads : body.threads) {
-        for (const bool spinning : body.spinning) {
-          if (spinning && threads == 1) continue;  // a single thread has no other to wait for
-          for (const int size : body.sizes) {
-            settings.push_back({model, model_path(suite, model), {threads, spinning}, size});
-          }
-        }
-      }
+    const MatchingModels models = matching_models(suite, pattern);
+    for (const std::string& model : models.found) add_settings(body, model, model_path(suite, model), settings);
+    for (const std::string& model : models.left_out) {
+      notes.push_back("model " + model + " is left out: TorchScript needs a build with -DLRRT_WITH_TORCH=ON");
     }
   }
   return settings;
@@ -92,10 +123,10 @@ std::vector<Setting> settings_of(const Suite& suite, const PredictSuite& body) {
 Campaign predict_campaign(const Suite& suite, const CancelToken& cancel) {
   const auto& body = std::get<PredictSuite>(suite.body);
   Campaign campaign;
-  for (const Setting& setting : settings_of(suite, body)) {
+  for (const Setting& setting : settings_of(suite, campaign.notes)) {
     if (!campaign.inputs["models"].contains(setting.model)) {
-      const OnnxPredictor predictor(setting.file);  // a broken model is found before anything is measured
-      campaign.onnxruntime = predictor.info().runtime_version;
+      const LoadedModel model = load_model(setting.file);  // a broken model is found before anything is measured
+      (is_torchscript(setting.file) ? campaign.libtorch : campaign.onnxruntime) = model.info.runtime_version;
       campaign.inputs["models"][setting.model] = file_checksum(setting.file);
     }
     const std::size_t pair = campaign.jobs.size();

@@ -22,6 +22,15 @@ std::vector<double> times_of(const Json& row, std::size_t stage) {
   return times;
 }
 
+/// The sides of the network's pictures in a row, each followed by `unit`.
+std::string sides_of(const Json& row, const std::string& separator, const std::string& unit) {
+  std::string text;
+  for (const Json& side : row.at("input_sides")) {
+    text += (text.empty() ? "" : separator) + std::to_string(side.get<int>()) + unit;
+  }
+  return text;
+}
+
 double per_second(const std::vector<double>& times) {
   const double total = std::accumulate(times.begin(), times.end(), 0.0);
   return 1e3 * static_cast<double>(times.size()) / total;
@@ -30,13 +39,17 @@ double per_second(const std::vector<double>& times) {
 }  // namespace
 
 std::string predict_report(const Json& document) {
-  Table table({"model", "map", "threads", "spinning", "encode", "infer", "region", "all", "per second"});
+  Table table(
+      {"model", "map", "input", "threads", "spinning", "batch", "encode", "infer", "region", "all", "per second"});
   for (const Json& row : document.at("rows")) {
     const std::string side = std::to_string(row.at("size").get<int>());
     const std::filesystem::path model(row.at("model").get<std::string>());
-    std::vector<std::string> cells = {model.filename().string(), side + "²",
+    std::vector<std::string> cells = {model.filename().string(),
+                                      side + "²",
+                                      sides_of(row, ", ", "²"),
                                       std::to_string(row.at("threads").get<int>()),
-                                      row.at("spinning").get<bool>() ? "on" : "off"};
+                                      row.at("spinning").get<bool>() ? "on" : "off",
+                                      std::to_string(row.at("batch").get<int>())};
     for (std::size_t stage = 0; stage < stages.size(); ++stage) {
       const std::vector<double> times = times_of(row, stage);
       cells.push_back(short_number(quantile(times, 0.5)) + " (" + short_number(quantile(times, 0.95)) + ")");
@@ -44,19 +57,20 @@ std::string predict_report(const Json& document) {
     cells.push_back(short_number(per_second(times_of(row, 3))));
     table.add(std::move(cells));
   }
-  return "Milliseconds a prediction: median (95 % are below). Per second: predictions one after the other, all "
-         "stages.\n" +
+  return "Milliseconds a prediction: median (95 % are below); of a batch, infer and all are shares. Per second: "
+         "predictions, calls one after the other, all stages. Input: sides of the network's pictures.\n" +
          table.text();
 }
 
 std::string predict_csv(const Json& document) {
   std::ostringstream text;
-  text << "model,name,input_size,size,threads,spinning,predictions";
+  text << "model,name,input_size,input_sides,size,threads,spinning,batch,predictions";
   for (const char* stage : stages) text << ',' << stage << "_median_ms," << stage << "_p95_ms";
   text << ",per_second\n";
   for (const Json& row : document.at("rows")) {
     text << quoted(row.at("model").get<std::string>()) << ',' << quoted(row.at("name").get<std::string>());
-    for (const char* key : {"input_size", "size", "threads", "spinning"}) text << ',' << row.at(key);
+    text << ',' << row.at("input_size") << ',' << sides_of(row, " ", "");
+    for (const char* key : {"size", "threads", "spinning", "batch"}) text << ',' << row.at(key);
     text << ',' << row.at("times").size();
     for (std::size_t stage = 0; stage < stages.size(); ++stage) {
       const std::vector<double> times = times_of(row, stage);

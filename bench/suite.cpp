@@ -12,15 +12,18 @@ namespace fs = std::filesystem;
 
 constexpr NumberRule sides{16, 16384, "a side from 16 to 16384 pixels"};
 constexpr NumberRule threads_rule{1, 1024, "a number of threads from 1 to 1024"};
+constexpr NumberRule batches{1, 4096, "a number of predictions from 1 to 4096"};
 constexpr NumberRule levels{5, 2047, "an odd number of blocks from 5 on"};
 constexpr NumberRule counts{1, 1e9, "a whole number from 1 on"};
 
 PredictSuite read_predict_suite(const Fields& fields) {
-  fields.allow_only({"kind", "title", "models", "sizes", "threads", "spinning", "level", "mazes", "runs", "seed"});
+  fields.allow_only(
+      {"kind", "title", "models", "sizes", "threads", "batch", "spinning", "level", "mazes", "runs", "seed"});
   PredictSuite suite;
   suite.models = fields.texts("models", suite.models);
   suite.sizes = fields.counts("sizes", suite.sizes, sides);
   suite.threads = fields.counts("threads", suite.threads, threads_rule);
+  suite.batch = fields.counts("batch", suite.batch, batches);
   suite.spinning = fields.flags("spinning", suite.spinning);
   suite.level = static_cast<int>(fields.count("level", suite.level, levels));
   suite.mazes = static_cast<int>(fields.count("mazes", suite.mazes, counts));
@@ -108,6 +111,12 @@ MapSource own_maps(const std::string& path) {
   return source;
 }
 
+/// The model that a user names, seen from the suite's folder, as the suite would name it.
+std::string own_model(const std::string& model, const fs::path& folder) {
+  if (model == "default") return model;
+  return fs::absolute(model).lexically_normal().lexically_proximate(fs::absolute(folder).lexically_normal()).string();
+}
+
 }  // namespace
 
 void apply(const Overrides& overrides, Suite& suite) {
@@ -120,6 +129,13 @@ void apply(const Overrides& overrides, Suite& suite) {
   auto* plan = std::get_if<PlanSuite>(&suite.body);
   if (plan == nullptr && !overrides.maps.empty())
     throw SuiteError("--maps: the suite plans nothing; expected 'kind: plan'");
+  auto* predict = std::get_if<PredictSuite>(&suite.body);
+  if (predict == nullptr && !overrides.models.empty())
+    throw SuiteError("--models: the suite plans; expected 'kind: predict', or 'model' in the suite's planners");
+  if (predict != nullptr && !overrides.models.empty()) {
+    predict->models.clear();
+    for (const std::string& model : overrides.models) predict->models.push_back(own_model(model, suite.folder));
+  }
   if (plan != nullptr) {
     if (!overrides.maps.empty()) plan->maps.clear();
     for (const std::string& path : overrides.maps) {

@@ -72,9 +72,10 @@ struct PlanSuite {
 
 /// `kind: predict`: how fast models predict.
 struct PredictSuite {
-  std::vector<std::string> models{"default"};  ///< files, patterns such as "models/*.onnx", or "default"
+  std::vector<std::string> models{"default"};  ///< files, patterns such as "models/*", or "default"
   std::vector<int> sizes{256};                 ///< sides of the maps, pixels
-  std::vector<int> threads{1, 2};              ///< of one prediction
+  std::vector<int> threads{1, 2};              ///< of one call
+  std::vector<int> batch{1};                   ///< predictions of one call
   std::vector<bool> spinning{false};           ///< whether idle threads spin
   int level = 35;                              ///< blocks a side of the mazes that are shown
   int mazes = 8;                               ///< different mazes a size, taken in turn
@@ -97,7 +98,8 @@ struct Overrides {
   std::optional<int> runs;
   std::optional<std::uint64_t> seed;
   std::optional<double> time_limit;
-  std::vector<std::string> maps;  ///< files and folders that take the place of the suite's maps
+  std::vector<std::string> maps;    ///< files and folders that take the place of the suite's maps
+  std::vector<std::string> models;  ///< files and patterns that take the place of the suite's models
 };
 
 /// Reads a suite.
@@ -112,7 +114,7 @@ Suite load_suite(const std::string& name);
 /// The suites that ship, by name.
 std::vector<std::string> shipped_suites();
 
-/// @throws SuiteError when maps are not there, or the suite has no use for them.
+/// @throws SuiteError when maps are not there, or the suite has no use for maps or models.
 void apply(const Overrides& overrides, Suite& suite);
 
 /// Everything that a suite says, defaults spelled out. parse_suite() reads it back.

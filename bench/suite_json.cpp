@@ -64,9 +64,9 @@ Json body_json(const PlanSuite& suite) {
 }
 
 Json body_json(const PredictSuite& suite) {
-  return {{"kind", "predict"},        {"models", suite.models},     {"sizes", suite.sizes},
-          {"threads", suite.threads}, {"spinning", suite.spinning}, {"level", suite.level},
-          {"mazes", suite.mazes},     {"runs", suite.runs},         {"seed", suite.seed}};
+  return {{"kind", "predict"},    {"models", suite.models},     {"sizes", suite.sizes}, {"threads", suite.threads},
+          {"batch", suite.batch}, {"spinning", suite.spinning}, {"level", suite.level}, {"mazes", suite.mazes},
+          {"runs", suite.runs},   {"seed", suite.seed}};
 }
 
 }  // namespace

@@ -183,6 +183,21 @@ std::shared_ptr<OnnxPredictor> load_predictor(const std::optional<std::filesyste
   return std::make_shared<OnnxPredictor>(model ? *model : default_model_path(), OnnxOptions{threads, spinning});
 }
 
+using Query = std::pair<Eigen::Vector2d, Eigen::Vector2d>;
+
+std::vector<std::shared_ptr<PromisingRegion>> predict_many(const RegionPredictor& predictor, const OccupancyMap& map,
+                                                           const std::vector<Query>& queries) {
+  std::vector<RegionQuery> all;
+  all.reserve(queries.size());
+  for (const auto& [start, goal] : queries) all.push_back({start, goal});
+  std::vector<std::shared_ptr<PromisingRegion>> regions;
+  regions.reserve(all.size());
+  for (Prediction& prediction : predictor.predict_many(map, all)) {
+    regions.push_back(std::make_shared<PromisingRegion>(std::move(prediction.region)));
+  }
+  return regions;
+}
+
 void bind_predictors(py::module_& module) {
   py::class_<RegionPredictor, std::shared_ptr<RegionPredictor>>(module, "RegionPredictor",
                                                                 "Marks where a path probably lies.")
@@ -195,6 +210,11 @@ void bind_predictors(py::module_& module) {
           py::arg("map"), py::arg("start"), py::arg("goal"), py::call_guard<py::gil_scoped_release>(),
           "The promising region of a query; `start` and `goal` in map units, on free pixels. Raises RequestError, "
           "ModelError.")
+      .def(
+          "predict_many", &predict_many, py::arg("map"), py::arg("queries"), py::call_guard<py::gil_scoped_release>(),
+          "The promising regions of many queries on one map, in their order: those that predict() gives one by one.\n\n"
+          "`queries`: pairs (start, goal), or an array of shape (N, 2, 2); map units, on free pixels. A network is "
+          "given several pictures at once. Raises RequestError that names the first wrong query, ModelError.")
       .def(
           "predict_timed",
           [](const RegionPredictor& predictor, const OccupancyMap& map, const Eigen::Vector2d& start,

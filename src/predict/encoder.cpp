@@ -181,6 +181,14 @@ Encoder::Encoder(InputSpec spec) : spec_(std::move(spec)) {
 
 InputFit Encoder::encode(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
                          std::vector<std::uint8_t>& image) const {
+  return encode(map, start, goal, [&](int side) {
+    image.resize(3 * static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+    return image.data();
+  });
+}
+
+InputFit Encoder::encode(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
+                         const std::function<std::uint8_t*(int side)>& place) const {
   const Pixel start_pixel = free_pixel(map, start, "start");
   const Pixel goal_pixel = free_pixel(map, goal, "goal");
   const PixelBox crop = part_that_matters(map, start_pixel, goal_pixel);
@@ -190,9 +198,9 @@ InputFit Encoder::encode(const OccupancyMap& map, const Eigen::Vector2d& start, 
   const cv::Rect start_marker = marker(result, start_pixel, spec_.marker_side);
   const cv::Rect goal_marker = marker(result, goal_pixel, spec_.marker_side);
   const auto plane_size = static_cast<std::size_t>(result.size) * static_cast<std::size_t>(result.size);
-  image.resize(3 * plane_size);
+  std::uint8_t* image = place(result.size);
   for (std::size_t k = 0; k < 3; ++k) {
-    cv::Mat1b plane(result.size, result.size, image.data() + k * plane_size);
+    cv::Mat1b plane(result.size, result.size, image + k * plane_size);
     paint(bright, spec_.colours.obstacle[k], spec_.colours.free[k], plane);
     plane(start_marker) = spec_.colours.start[k];
     plane(goal_marker) = spec_.colours.goal[k];

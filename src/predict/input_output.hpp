@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -9,11 +8,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-#include "lrrt/predict/encoder.hpp"
-#include "lrrt/predict/model_info.hpp"
-#include "lrrt/predict/region_predictor.hpp"
-#include "lrrt/stopwatch.hpp"
 
 namespace lrrt {
 
@@ -59,42 +53,5 @@ class Pool {
   std::mutex mutex_;
   std::vector<std::unique_ptr<Workspace>> idle_;
 };
-
-/// Below this probability a pixel never joins a region, whatever it would link.
-inline constexpr float lowest_probability = 0.02F;
-
-/// Half the width of a link, pixels of the network's input.
-inline constexpr double link_halo = 3.0;
-
-/// Arguments of RegionPredictor::predict.
-struct RegionQuery {
-  const OccupancyMap& map;
-  const Eigen::Vector2d& start;
-  const Eigen::Vector2d& goal;
-};
-
-/// One prediction, whatever runs the network: encodes the query, runs the network, brings its output back to the map.
-/// @param image receives the picture. @param run runs the network on it, given its side, and returns its output, class
-/// by class.
-template <typename Run>
-Prediction predict_region(const ModelInfo& info, const Encoder& encoder, const RegionQuery& query,
-                          std::vector<std::uint8_t>& image, const Run& run) {
-  PredictTimings timings;
-  Stopwatch watch;
-  const InputFit fit = encoder.encode(query.map, query.start, query.goal, image);
-  timings.encode = watch.lap_ms();
-  const float* output = run(fit.size);
-  timings.infer = watch.lap_ms();
-  const Pixel start = OccupancyMap::pixel_of(query.map.to_pixel(query.start));
-  const Pixel goal = OccupancyMap::pixel_of(query.map.to_pixel(query.goal));
-  PromisingRegion region(query.map, fit.to_map(output + info.promising * plane_size(fit.size)), start, goal,
-                         info.threshold);
-  if (!region.connected()) {
-    region = region.linked(query.map, start, goal, lowest_probability, static_cast<int>(link_halo / fit.scale));
-  }
-  region.drop_loose_parts(start);
-  timings.region = watch.lap_ms();
-  return {std::move(region), timings};
-}
 
 }  // namespace lrrt

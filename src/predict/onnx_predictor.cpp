@@ -12,6 +12,7 @@
 #include "lrrt/error.hpp"
 #include "model_info.hpp"
 #include "onnx_runtime.hpp"
+#include "predict_regions.hpp"
 
 namespace lrrt {
 namespace {
@@ -36,7 +37,8 @@ Ort::SessionOptions session_options(const OnnxOptions& options) {
 }
 
 /// Checks one input or output against the contract; -1 stands for any number. A graph whose sides are fixed takes one.
-void check_tensor(const ModelInfo& info, const Ort::TypeInfo& type, const char* name, ONNXTensorElementDataType element,
+/// @return whether it holds any number of pictures; else one.
+bool check_tensor(const ModelInfo& info, const Ort::TypeInfo& type, const char* name, ONNXTensorElementDataType element,
                   std::int64_t channels) {
   if (type.GetONNXType() != ONNX_TYPE_TENSOR)
     throw ModelError("model " + info.path.string() + ": '" + name + "' is not a tensor");
@@ -54,6 +56,7 @@ void check_tensor(const ModelInfo& info, const Ort::TypeInfo& type, const char* 
                      shape_text({-1, channels, one_side ? side : -1, one_side ? side : -1}) + " and type " +
                      std::to_string(element) + ". Its metadata and its graph do not belong together.");
   }
+  return shape[0] == -1;
 }
 
 void check_name(const ModelInfo& info, std::size_t count, const Ort::AllocatedStringPtr& name, const char* expected) {
@@ -67,13 +70,9 @@ void check_name(const ModelInfo& info, std::size_t count, const Ort::AllocatedSt
 /// The loaded model and the buffers of the calls under way.
 class OnnxPredictor::Session {
  public:
-  /// Buffers of one call, large enough for the largest picture.
+  /// Buffers of one call; they grow to what calls need.
   struct Workspace {
-    explicit Workspace(const ModelInfo& info) : probability(info.classes.size() * plane_size(info.input.size)) {
-      image.reserve(3 * plane_size(info.input.size));
-    }
-
-    std::vector<std::uint8_t> image;
+    PictureBatches batches;
     std::vector<float> probability;
   };
 
@@ -85,34 +84,47 @@ class OnnxPredictor::Session {
     Ort::AllocatorWithDefaultOptions allocator;
     check_name(info_, session_.GetInputCount(), session_.GetInputNameAllocated(0, allocator), input_name);
     check_name(info_, session_.GetOutputCount(), session_.GetOutputNameAllocated(0, allocator), output_name);
-    check_tensor(info_, session_.GetInputTypeInfo(0), input_name, ONNX_TENSOR_ELEMENT_DATA_TYPE_UINT8, 3);
-    check_tensor(info_, session_.GetOutputTypeInfo(0), output_name, ONNX_TENSOR_ELEMENT_DATA_TYPE_FLOAT,
-                 static_cast<std::int64_t>(info_.classes.size()));
+    const bool many_in =
+        check_tensor(info_, session_.GetInputTypeInfo(0), input_name, ONNX_TENSOR_ELEMENT_DATA_TYPE_UINT8, 3);
+    const bool many_out =
+        check_tensor(info_, session_.GetOutputTypeInfo(0), output_name, ONNX_TENSOR_ELEMENT_DATA_TYPE_FLOAT,
+                     static_cast<std::int64_t>(info_.classes.size()));
+    one_by_one_ = !many_in || !many_out;
   }
 
   const ModelInfo& info() const { return info_; }
 
-  Prediction predict(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal) {
-    std::unique_ptr<Workspace> workspace = idle_.borrow([&] { return std::make_unique<Workspace>(info_); });
-    Prediction prediction = predict_region(info_, encoder_, {map, start, goal}, workspace->image,
-                                           [&](int side) { return run(*workspace, side); });
-    idle_.give_back(std::move(workspace));
-    return prediction;
+  std::vector<Prediction> predict(const OccupancyMap& map, const std::vector<RegionQuery>& queries) {
+    std::unique_ptr<Workspace> workspace = idle_.borrow([] { return std::make_unique<Workspace>(); });
+    const auto run_network = [&](std::vector<std::uint8_t>& images, std::size_t count, int side) {
+      return run(images, static_cast<std::int64_t>(count), side, workspace->probability);
+    };
+    try {
+      auto predictions = predict_regions({info_, encoder_, one_by_one_, run_network}, map, queries, workspace->batches);
+      idle_.give_back(std::move(workspace));
+      return predictions;
+    } catch (const Ort::Exception& error) {
+      throw ModelError("model " + info_.path.string() + " failed: " + error.what());
+    }
   }
 
  private:
-  /// Runs the network on the workspace's picture, side × side pixels. @return its output, class by class.
-  const float* run(Workspace& workspace, std::int64_t side) {
+  /// Runs the network on `count` pictures of side × side pixels. @param probability receives its output, picture by
+  /// picture, class by class; grown where it is too small. @return its begin.
+  const float* run(std::vector<std::uint8_t>& images, std::int64_t count, std::int64_t side,
+                   std::vector<float>& probability) {
     const auto classes = static_cast<std::int64_t>(info_.classes.size());
-    const std::array<std::int64_t, 4> input_shape{1, 3, side, side};
-    const std::array<std::int64_t, 4> output_shape{1, classes, side, side};
-    const auto pixels = static_cast<std::size_t>(side * side);
-    const Ort::Value input = Ort::Value::CreateTensor<std::uint8_t>(memory_, workspace.image.data(), 3 * pixels,
+    const std::array<std::int64_t, 4> input_shape{count, 3, side, side};
+    const std::array<std::int64_t, 4> output_shape{count, classes, side, side};
+    const auto pixels = static_cast<std::size_t>(count * side * side);
+    const std::size_t outputs = info_.classes.size() * pixels;
+    if (probability.size() < outputs) probability.resize(outputs);
+    const Ort::Value input = Ort::Value::CreateTensor<std::uint8_t>(memory_, images.data(), 3 * pixels,
                                                                     input_shape.data(), input_shape.size());
-    Ort::Value output = Ort::Value::CreateTensor<float>(
-        memory_, workspace.probability.data(), info_.classes.size() * pixels, output_shape.data(), output_shape.size());
+    Ort::Value output =
+        Ort::Value::CreateTensor<float>(memory_, probability.data(), outputs, output_shape.data(), output_shape.size());
     session_.Run(Ort::RunOptions{nullptr}, &input_name, &input, 1, &output_name, &output, 1);
-    return workspace.probability.data();
+    return probability.data();
   }
 
   ModelInfo read_info(const std::filesystem::path& path) {
@@ -131,6 +143,7 @@ class OnnxPredictor::Session {
   Ort::MemoryInfo memory_;
   ModelInfo info_;
   Encoder encoder_;
+  bool one_by_one_ = false;
   Pool<Workspace> idle_;
 };
 
@@ -155,11 +168,13 @@ const ModelInfo& OnnxPredictor::info() const {
 
 Prediction OnnxPredictor::predict(const OccupancyMap& map, const Eigen::Vector2d& start,
                                   const Eigen::Vector2d& goal) const {
-  try {
-    return session_->predict(map, start, goal);
-  } catch (const Ort::Exception& error) {
-    throw ModelError("model " + info().path.string() + " failed: " + error.what());
-  }
+  return std::move(session_->predict(map, {{start, goal}}).front());
+}
+
+std::vector<Prediction> OnnxPredictor::predict_many(const OccupancyMap& map,
+                                                    const std::vector<RegionQuery>& queries) const {
+  check_queries(map, queries);
+  return session_->predict(map, queries);
 }
 
 }  // namespace lrrt

@@ -12,6 +12,7 @@
 #include "input_output.hpp"
 #include "lrrt/error.hpp"
 #include "model_info.hpp"
+#include "predict_regions.hpp"
 
 namespace lrrt {
 namespace {
@@ -69,10 +70,10 @@ void check_input(const ModelInfo& info, const torch::jit::Module& module) {
 }
 
 /// Checks the output against the contract: of every run, for a program may return what it likes.
-void check_output(const ModelInfo& info, const c10::IValue& value, std::int64_t side) {
+void check_output(const ModelInfo& info, const c10::IValue& value, std::int64_t count, std::int64_t side) {
   if (!value.isTensor()) fail(info.path, " returns a " + value.tagKind() + ", expected one tensor. " + advice);
   const at::Tensor& output = value.toTensor();
-  const std::vector<std::int64_t> expected{1, static_cast<std::int64_t>(info.classes.size()), side, side};
+  const std::vector<std::int64_t> expected{count, static_cast<std::int64_t>(info.classes.size()), side, side};
   if (output.sizes() != expected || output.scalar_type() != at::kFloat) {
     fail(info.path, std::string(" returns shape ") + shape_text(output.sizes().vec()) + " and element type " +
                         c10::toString(output.scalar_type()) + ", expected " + shape_text(expected) + " and " +
@@ -83,58 +84,70 @@ void check_output(const ModelInfo& info, const c10::IValue& value, std::int64_t 
 }  // namespace
 
 /// The loaded module and the pictures of the calls under way.
-class TorchScriptPredictor::Network {
+class TorchScriptPredictor::Program {
  public:
-  /// Picture of one call.
-  using Workspace = std::vector<std::uint8_t>;
-
-  explicit Network(const std::filesystem::path& path) : Network(path, load(path)) {}
+  explicit Program(const std::filesystem::path& path) : Program(path, load(path)) {}
 
   const ModelInfo& info() const { return info_; }
 
-  Prediction predict(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal) {
-    std::unique_ptr<Workspace> workspace = idle_.borrow([] { return std::make_unique<Workspace>(); });
+  std::vector<Prediction> predict(const OccupancyMap& map, const std::vector<RegionQuery>& queries) {
+    std::unique_ptr<PictureBatches> batches = idle_.borrow([] { return std::make_unique<PictureBatches>(); });
     at::Tensor output;
-    Prediction prediction = predict_region(info_, encoder_, {map, start, goal}, *workspace, [&](int side) {
-      output = run(*workspace, side);
+    const auto run_program = [&](std::vector<std::uint8_t>& images, std::size_t count, int side) {
+      output = run(images, static_cast<std::int64_t>(count), side);
       return output.data_ptr<float>();
-    });
-    idle_.give_back(std::move(workspace));
-    return prediction;
+    };
+    auto predictions = predict_regions({info_, encoder_, one_by_one_, run_program}, map, queries, *batches);
+    idle_.give_back(std::move(batches));
+    return predictions;
   }
 
  private:
-  Network(const std::filesystem::path& path, Archive archive)
+  Program(const std::filesystem::path& path, Archive archive)
       : module_(std::move(archive.module)), info_(read_info(path, archive.metadata)), encoder_(info_.input) {
     check_input(info_, module_);
-    Workspace trial(3 * plane_size(info_.input.size));
-    for (int i = 0; i < 2; ++i) run(trial, info_.input.size);  // libtorch profiles the first run, compiles the second
+    std::vector<std::uint8_t> trial(3 * plane_size(info_.input.size));
+    for (int i = 0; i < 2; ++i) run(trial, 1, info_.input.size);  // the first run is profiled, the second compiled
+    one_by_one_ = !takes_two();
   }
 
-  at::Tensor run(Workspace& image, std::int64_t side) {
+  /// A program that was traced with a single picture may fail on two, or give them the shape of one.
+  bool takes_two() {
+    const int side = info_.input.smaller.empty() ? info_.input.size : info_.input.smaller.front();
+    std::vector<std::uint8_t> images(2 * 3 * plane_size(side));
+    try {
+      run(images, 2, side);
+      return true;
+    } catch (const ModelError&) {
+      return false;
+    }
+  }
+
+  at::Tensor run(std::vector<std::uint8_t>& images, std::int64_t count, std::int64_t side) {
     const c10::InferenceMode inference;
-    const at::Tensor picture = torch::from_blob(image.data(), {1, 3, side, side}, torch::kUInt8);
+    const at::Tensor pictures = torch::from_blob(images.data(), {count, 3, side, side}, torch::kUInt8);
     c10::IValue output;
     try {
-      output = module_.forward({picture});
+      output = module_.forward({pictures});
     } catch (const std::exception& error) {
       fail(info_.path, " failed: " + text_of(error));
     }
-    check_output(info_, output, side);
+    check_output(info_, output, count, side);
     return output.toTensor().contiguous();
   }
 
   torch::jit::Module module_;
   ModelInfo info_;
   Encoder encoder_;
-  Pool<Workspace> idle_;
+  bool one_by_one_ = false;
+  Pool<PictureBatches> idle_;
 };
 
 TorchScriptPredictor::TorchScriptPredictor(const std::filesystem::path& model, TorchOptions options) {
   check_model_file(model, "a TorchScript archive");
   check_threads(options.threads);
   if (options.threads > 0) at::set_num_threads(options.threads);
-  network_ = std::make_unique<Network>(model);
+  program_ = std::make_unique<Program>(model);
 }
 
 TorchScriptPredictor::~TorchScriptPredictor() = default;
@@ -142,12 +155,18 @@ TorchScriptPredictor::TorchScriptPredictor(TorchScriptPredictor&&) noexcept = de
 TorchScriptPredictor& TorchScriptPredictor::operator=(TorchScriptPredictor&&) noexcept = default;
 
 const ModelInfo& TorchScriptPredictor::info() const {
-  return network_->info();
+  return program_->info();
 }
 
 Prediction TorchScriptPredictor::predict(const OccupancyMap& map, const Eigen::Vector2d& start,
                                          const Eigen::Vector2d& goal) const {
-  return network_->predict(map, start, goal);
+  return std::move(program_->predict(map, {{start, goal}}).front());
+}
+
+std::vector<Prediction> TorchScriptPredictor::predict_many(const OccupancyMap& map,
+                                                           const std::vector<RegionQuery>& queries) const {
+  check_queries(map, queries);
+  return program_->predict(map, queries);
 }
 
 }  // namespace lrrt

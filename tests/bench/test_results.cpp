@@ -52,7 +52,12 @@ class Results : public testing::Test {
   fs::path part() const { return folder_ / "result.json.part"; }
 
   static Json document_of(const Suite& suite, const IterationLimits& limits = {}) {
-    const Campaign campaign = plan_campaign(suite, {}, limits);
+    return document_of(suite, plan_campaign(suite, {}, limits));
+  }
+  static Json predictions_of(const Suite& suite) { return document_of(suite, predict_campaign(suite, {})); }
+
+ private:
+  static Json document_of(const Suite& suite, const Campaign& campaign) {
     ResultFile results({}, header_of(suite, campaign));
     run_jobs(campaign.jobs, {2, false, {}}, results);
     std::vector<std::string> ids;
@@ -60,7 +65,6 @@ class Results : public testing::Test {
     return results.document(ids);
   }
 
- private:
   fs::path folder_;
 };
 
@@ -142,6 +146,29 @@ TEST_F(Results, ARunThatTheClockEndedIsReplayedByItsIterations) {
   const Json before = document_of(suite);
   EXPECT_EQ(replay_limits(before).size(), before.at("rows").size());
   const Json after = document_of(replayed_suite(before, "result.json"), replay_limits(before));
+  EXPECT_TRUE(compare_replay(before, after).same) << compare_replay(before, after).text;
+}
+
+TEST_F(Results, PredictionsHoldWhatIsMeasuredAndAreReplayed) {
+  const std::string text =
+      "{kind: predict, models: models/sizes.onnx, sizes: [16, 64], threads: 1, batch: [1, 3], level: 5, runs: 4}";
+  const Suite suite = parse_suite(text, "my.yaml", LRRT_BENCH_SUITES "/../../tests/data");
+  const Json before = predictions_of(suite);
+  ASSERT_EQ(before.at("rows").size(), 4U);
+  for (const Json& row : before.at("rows")) {
+    const bool single = row.at("batch") == 1;
+    EXPECT_EQ(row.at("times").size(), single ? 4U : 6U);  // calls are whole
+    EXPECT_EQ(row.at("id").get<std::string>().find(" batch=3") == std::string::npos, single);
+    EXPECT_EQ(row.at("input_size"), 32);
+    for (const Json& side : row.at("input_sides")) EXPECT_TRUE(side == 8 || side == 16 || side == 32);
+    EXPECT_EQ(row.at("input_sides"), before.at("rows").at(row.at("size") == 16 ? 0 : 1).at("input_sides"));
+    for (const Json& time : row.at("times")) EXPECT_GE(time.at(3), time.at(1));  // all of a call, and its network
+  }
+  EXPECT_NE(predict_report(before).find("batch"), std::string::npos);
+  const std::string csv = predict_csv(before);
+  EXPECT_EQ(csv.find("model,name,input_size,input_sides,size,threads,spinning,batch,predictions,"), 0U);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 4);
+  const Json after = predictions_of(replayed_suite(before, "result.json"));
   EXPECT_TRUE(compare_replay(before, after).same) << compare_replay(before, after).text;
 }
 

@@ -7,6 +7,7 @@
 #include "grid_search.hpp"
 #include "lrrt/ompl/map_validity.hpp"
 #include "made_regions.hpp"
+#include "models.hpp"
 #include "problems.hpp"
 #include "reference.hpp"
 #include "suite.hpp"
@@ -78,7 +79,7 @@ TEST(Suite, JsonReadsBackTheSame) {
 
 TEST(Suite, OverridesReachEveryRow) {
   Suite suite = parse_suite(small, "my.yaml", ".");
-  apply({7, 99, 1.5, {}}, suite);
+  apply({7, 99, 1.5, {}, {}}, suite);
   const auto& body = std::get<PlanSuite>(suite.body);
   EXPECT_EQ(body.runs, 7);
   EXPECT_EQ(body.seed, 99U);
@@ -102,6 +103,59 @@ TEST(Suite, OwnMapsTakeThePlaceOfTheSuites) {
   Suite predictions = load_suite("predict");
   changes.maps = {LRRT_BENCH_SUITES};
   EXPECT_THROW(apply(changes, predictions), SuiteError);
+}
+
+TEST(Suite, BatchesAreCountsAndComeBackFromJson) {
+  const auto batches = [](const Suite& suite) { return std::get<PredictSuite>(suite.body).batch; };
+  EXPECT_EQ(batches(parse_suite("kind: predict", "my.yaml", ".")), std::vector<int>{1});
+  const Suite suite = parse_suite("{kind: predict, batch: [1, 8, 3]}", "my.yaml", ".");
+  EXPECT_EQ(batches(suite), (std::vector<int>{1, 8, 3}));
+  EXPECT_EQ(batches(parse_suite(dumped(to_json(suite)), "my.yaml", ".")), (std::vector<int>{1, 8, 3}));
+  for (const char* wrong : {"0", "1.5", "[1, -2]", "many", "5000", "[]"}) {
+    EXPECT_NE(error_of(std::string("{kind: predict, batch: ") + wrong + "}").find("my.yaml:1: batch is"),
+              std::string::npos)
+        << wrong;
+  }
+}
+
+TEST(Suite, OwnModelsTakeThePlaceOfTheSuites) {
+  Suite suite = load_suite("predict");
+  Overrides changes;
+  changes.models = {LRRT_BENCH_SUITES "/../../tests/data/models/green.*", "default"};
+  apply(changes, suite);
+  const auto& models = std::get<PredictSuite>(suite.body).models;
+  EXPECT_EQ(models, (std::vector<std::string>{"../../tests/data/models/green.*", "default"}));
+  Suite plans = load_suite("smoke");
+  EXPECT_THROW(apply(changes, plans), SuiteError);
+}
+
+#ifdef LRRT_WITH_TORCH
+constexpr bool with_torch = true;
+#else
+constexpr bool with_torch = false;
+#endif
+
+TEST(Models, PatternsTakeWhatCanBeRunAndSayWhatIsLeftOut) {
+  Suite suite;
+  suite.folder = LRRT_BENCH_SUITES "/../../tests/data";
+  const MatchingModels models = matching_models(suite, "models/green.*");
+  const std::vector<std::string> onnx{"models/green.onnx"};
+  const std::vector<std::string> both{"models/green.onnx", "models/green.pt"};
+  EXPECT_EQ(models.found, with_torch ? both : onnx);
+  EXPECT_EQ(models.left_out, with_torch ? std::vector<std::string>{} : std::vector<std::string>{"models/green.pt"});
+  EXPECT_EQ(matching_models(suite, "models/green.pt").found, std::vector<std::string>{"models/green.pt"});
+  EXPECT_THROW(matching_models(suite, "models/nothing*"), SuiteError);
+  EXPECT_THROW(matching_models(suite, "*"), SuiteError);  // a Python file and a map are no models
+  if (with_torch) {
+    EXPECT_EQ(load_model(suite.resolved("models/green.pt")).info.name, "green");
+    return;
+  }
+  try {
+    load_model(suite.resolved("models/green.pt"));
+    FAIL() << "expected a SuiteError";
+  } catch (const SuiteError& error) {
+    EXPECT_NE(std::string(error.what()).find("-DLRRT_WITH_TORCH=ON"), std::string::npos) << error.what();
+  }
 }
 
 TEST(Suite, EveryShippedSuiteIsRead) {

@@ -8,7 +8,7 @@
 #include "lrrt/error.hpp"
 #include "lrrt/predict/onnx_predictor.hpp"
 #include "lrrt/predict/torch_predictor.hpp"
-#include "support.hpp"
+#include "many_support.hpp"
 
 namespace lrrt {
 namespace {
@@ -30,7 +30,7 @@ TEST(TorchScriptPredictor, ReadsTheMetadata) {
 
 TEST(TorchScriptPredictor, AgreesWithOnnxRuntime) {
   Random random(71);
-  for (const std::string& name : std::vector<std::string>{"green", "one_class"}) {
+  for (const std::string& name : std::vector<std::string>{"green", "one_class", "sizes"}) {
     const TorchScriptPredictor torch(tiny(name + ".pt"));
     const OnnxPredictor onnx(tiny(name + ".onnx"));
     for (int i = 0; i < 100; ++i) {
@@ -47,6 +47,27 @@ TEST(TorchScriptPredictor, AgreesWithOnnxRuntime) {
       }
     }
   }
+}
+
+TEST(TorchScriptPredictor, ManyPredictionsAreThoseOfOneByOne) {
+  for (const char* file : {"green.pt", "one_class.pt", "sizes.pt", "single.pt", "first.pt"}) {
+    const TorchScriptPredictor predictor(tiny(file));
+    Random random(73);
+    std::set<int> sides;
+    for (int i = 0; i < 20; ++i) {
+      const OccupancyMap map = test::random_map(random, 1, i % 2 == 0 ? 60 : 12);
+      sides.merge(test::expect_one_by_one(predictor, map, test::random_queries(map, random.index(20), random), 1e-6F));
+    }
+    EXPECT_EQ(sides.size(), std::string(file) == "sizes.pt" ? 3U : 1U) << file;
+  }
+}
+
+TEST(TorchScriptPredictor, AWrongQueryOfManyIsNamed) {
+  const TorchScriptPredictor predictor(tiny("green.pt"));
+  const OccupancyMap map = test::map_from_rows({"..#.", "...."});
+  const std::vector<RegionQuery> queries{{{0.5, 0.5}, {3.5, 1.5}}, {{0.5, 0.5}, {2.5, 0.5}}};
+  EXPECT_EQ(test::refusal_of(predictor, map, queries).find("queries[1]: goal (2.5, 0.5)"), 0U);
+  EXPECT_TRUE(predictor.predict_many(map, {}).empty());
 }
 
 TEST(TorchScriptPredictor, OutputsThatAreNotNumbersMarkNothing) {

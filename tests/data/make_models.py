@@ -41,6 +41,7 @@ METADATA = {
     "training_budget": "none",
     "commit": "none",
 }
+SIZES = {"input_size": "32", "smaller_inputs": "8,16", "least_passage": "2"}
 
 
 def model(
@@ -49,6 +50,7 @@ def model(
     output: str = "probability",
     bias: float = 0.0,
     side: int | str = SIZE,
+    batch: int | str = "batch",
 ) -> onnx.ModelProto:
     """image / 255 → 1×1 convolution that copies the green plane into the last class."""
     weight = np.zeros((classes, 3, 1, 1), np.float32)
@@ -62,8 +64,8 @@ def model(
     graph = helper.make_graph(
         nodes,
         "green",
-        [helper.make_tensor_value_info("image", element, ["batch", 3, side, side])],
-        [helper.make_tensor_value_info(output, TensorProto.FLOAT, ["batch", classes, side, side])],
+        [helper.make_tensor_value_info("image", element, [batch, 3, side, side])],
+        [helper.make_tensor_value_info(output, TensorProto.FLOAT, [batch, classes, side, side])],
         [
             numpy_helper.from_array(np.array(255.0, np.float32), "scale"),
             numpy_helper.from_array(weight, "weight"),
@@ -126,6 +128,20 @@ class Masked(Green):
         return super().forward(image * mask)
 
 
+class Single(Green):
+    """Runs with one picture only."""
+
+    def forward(self, image: Tensor) -> Tensor:
+        return super().forward(image.reshape(1, 3, SIZE, SIZE))
+
+
+class First(Green):
+    """Looks at the first of its pictures only."""
+
+    def forward(self, image: Tensor) -> Tensor:
+        return super().forward(image[:1])
+
+
 class FixedSize(Green):
     """Runs with pictures of one size only."""
 
@@ -147,6 +163,9 @@ def save_script(name: str, module: nn.Module, metadata: str | None = None, input
 def make_scripts() -> None:
     metadata = json.dumps(properties())
     save_script("green", Green(), metadata)
+    save_script("sizes", Green(), json.dumps(properties(**SIZES)))
+    save_script("single", Single(), metadata)
+    save_script("first", First(), metadata)
     save_script("one_class", Green(classes=1), json.dumps(properties(classes="promising")))
     save_script("nan", Green(bias=float("nan")), metadata)
     save_script("no_metadata", Green())
@@ -167,11 +186,11 @@ def main() -> None:
     save("green", model())
     save("two_classes", model(classes=2), classes="other,promising")
     save("one_class", model(classes=1), classes="promising")
-    sizes = {"input_size": "32", "smaller_inputs": "8,16", "least_passage": "2"}
-    save("sizes", model(side="side"), **sizes)
-    save("fixed_sizes", model(side=32), **sizes)
-    save("odd_sizes", model(side="side"), **{**sizes, "smaller_inputs": "16,8"})
-    save("no_passage", model(side="side"), **{**sizes, "least_passage": None})
+    save("single", model(batch=1))
+    save("sizes", model(side="side"), **SIZES)
+    save("fixed_sizes", model(side=32), **SIZES)
+    save("odd_sizes", model(side="side"), **{**SIZES, "smaller_inputs": "16,8"})
+    save("no_passage", model(side="side"), **{**SIZES, "least_passage": None})
     save("nan", model(bias=float("nan")))
     save("float_input", model(element=TensorProto.FLOAT))
     save("other_output", model(output="scores"))

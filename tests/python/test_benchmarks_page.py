@@ -296,8 +296,8 @@ def test_predictions_leave_out_what_is_the_same_everywhere(tmp_path):
     assert isinstance(results, PredictResults)
     report_table = tb.predict_table(results)
     table = table_of(results, "predict")
-    assert table.columns == (*report_table.columns[:2], *report_table.columns[4:])
-    assert table.rows == [(*row[:2], *row[4:]) for row in report_table.rows]
+    assert table.columns == (*report_table.columns[:2], *report_table.columns[6:])
+    assert table.rows == [(*row[:2], *row[6:]) for row in report_table.rows]
 
 
 def test_groups_have_short_names_where_the_program_named_them(tmp_path):

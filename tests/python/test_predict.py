@@ -54,6 +54,49 @@ def test_predictions_are_repeatable_and_timed(hall, predictor):
     assert set(timings) == {"encode", "infer", "region"} and all(t >= 0 for t in timings.values())
 
 
+def test_many_predictions_are_those_of_one_by_one(hall, predictor):
+    free = np.argwhere(hall.cells == 0)[:, ::-1] + 0.5
+    pairs = np.random.default_rng(5).choice(free, (19, 2))
+    expected = [predictor.predict(hall, start, goal) for start, goal in pairs]
+    for queries in (pairs, [(tuple(start), list(goal)) for start, goal in pairs]):
+        regions = predictor.predict_many(hall, queries)
+        assert len(regions) == 19
+        for region, one in zip(regions, expected):
+            assert region.probability.shape == (40, 60) and region.connected == one.connected
+            np.testing.assert_allclose(region.probability, one.probability, atol=1e-5)
+
+
+def test_no_queries_give_no_regions(hall, predictor):
+    assert predictor.predict_many(hall, []) == [] == predictor.predict_many(hall, np.empty((0, 2, 2)))
+
+
+def test_a_wrong_query_of_many_is_named(hall, predictor):
+    queries = [(START, GOAL)] * 3
+    with pytest.raises(lrrt.RequestError, match=r"^queries\[2\]: goal"):
+        predictor.predict_many(hall, [*queries[:2], (START, (-1.0, 5.0))])
+    for malformed in (START, (START, GOAL), [(START,)], [(START, GOAL, START)], np.zeros((2, 2)), np.zeros((1, 2, 3))):
+        with pytest.raises(TypeError):
+            predictor.predict_many(hall, malformed)
+
+
+def test_many_predictions_let_other_threads_run(hall, predictor):
+    started, done = threading.Event(), threading.Event()
+    steps = 0
+
+    def work() -> None:
+        started.set()
+        predictor.predict_many(hall, [(START, GOAL)] * 64)
+        done.set()
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    started.wait()
+    while not done.is_set():
+        steps += 1
+    thread.join()
+    assert steps > 100
+
+
 def test_the_picture_shows_map_and_region(hall, predictor):
     region = predictor.predict(hall, START, GOAL)
     picture = region.picture(hall)

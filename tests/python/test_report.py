@@ -17,7 +17,7 @@ from matplotlib.colors import to_hex
 from typer.testing import CliRunner
 
 from lrrt import cli
-from lrrt.report import ResultError, load
+from lrrt.report import ResultError, load, terminal_report
 from lrrt.report import statistics as st
 from lrrt.report import tables as tb
 from lrrt.report.content import chapters
@@ -214,7 +214,28 @@ def test_predictions_are_summed_up(tmp_path):
     results = load(written(tmp_path, predictions()))
     assert isinstance(results, PredictResults)
     row = tb.predict_table(results).rows[0]
-    assert row[:4] == ("large.onnx", "128²", "1", "off") and row[-2:] == ("7.00 (7.00)", "143")
+    assert row[:6] == ("large.onnx", "128²", "-", "1", "off", "1") and row[-2:] == ("7.00 (7.00)", "143")
+
+
+def test_predictions_tell_batches_and_pictures(tmp_path):
+    content = predictions()
+    content["rows"][1] |= {"batch": 8, "input_sides": [192, 256]}
+    content["versions"]["libtorch"] = "1.13.1"
+    file = written(tmp_path, content)
+    results = load(file)
+    assert isinstance(results, PredictResults)
+    assert tb.predict_table(results).rows[1][:6] == ("large.onnx", "256²", "192², 256²", "1", "off", "8")
+    assert "libtorch 1.13.1" in terminal_report(file)
+    labels = [label.get_text() for label in predict_pictures(results)[0].figure.axes[1].get_yticklabels()]
+    assert labels == ["large.onnx, 1 thread, batches of 8", "small.onnx, 1 thread"]
+
+
+@pytest.mark.parametrize("sides", [192, [], [192.5], [True], ["192"]])
+def test_sides_of_pictures_are_checked(tmp_path, sides):
+    content = predictions()
+    content["rows"][0]["input_sides"] = sides
+    with pytest.raises(ResultError, match=r"'rows\[0\].input_sides'.*whole numbers"):
+        load(written(tmp_path, content))
 
 
 # Broken files

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "lrrt/map/components.hpp"
@@ -71,6 +72,11 @@ class Encoder {
   /// @throws RequestError when start or goal does not lie on a free pixel.
   InputFit encode(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
                   std::vector<std::uint8_t>& image) const;
+
+  /// The same, the picture being written where the caller wants it.
+  /// @param place is told the side and returns room for the 3 × side × side bytes.
+  InputFit encode(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
+                  const std::function<std::uint8_t*(int side)>& place) const;
 
  private:
   InputSpec spec_;

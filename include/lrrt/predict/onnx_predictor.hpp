@@ -24,6 +24,9 @@ std::filesystem::path default_model_path();
 /// The runtime is opened when the first model is loaded: $LRRT_ONNXRUNTIME, else the library beside this one, else
 /// the one that was found at build time, else the system's. The session and its buffers are made once and reused; any
 /// number of threads may predict with one object.
+///
+/// predict_many() runs up to eight pictures of one side at once, fewer where a side is above 256 pixels, and one by one
+/// where the graph's batch axis is 1.
 class OnnxPredictor final : public RegionPredictor {
  public:
   /// @throws ModelError when the runtime or the file cannot be loaded or the metadata do not fit.
@@ -35,6 +38,7 @@ class OnnxPredictor final : public RegionPredictor {
 
   const ModelInfo& info() const;
   Prediction predict(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal) const override;
+  std::vector<Prediction> predict_many(const OccupancyMap& map, const std::vector<RegionQuery>& queries) const override;
   /// Four pixels of a map for every pixel of the picture: what is finer does not show.
   int detail() const override { return 4 * info().input.size; }
 

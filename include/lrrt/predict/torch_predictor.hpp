@@ -21,10 +21,13 @@ struct TorchOptions {
 ///
 /// The module and the buffers of its pictures are made once and reused; any number of threads may predict with one
 /// object. An archive holds a program: load only files that you trust.
+///
+/// predict_many() runs up to eight pictures of one side at once, fewer where a side is above 256 pixels, and one by one
+/// where the program fails on two, which is tried when it is loaded.
 class TorchScriptPredictor final : public RegionPredictor {
  public:
-  /// @param model an archive (.pt) that takes one uint8 picture, 1 × 3 × S × S, returns float32 probabilities,
-  /// 1 × K × S × S, and carries the metadata of the ONNX file in its extra file "metadata.json".
+  /// @param model an archive (.pt) that takes uint8 pictures, N × 3 × S × S (N may have to be 1), returns float32
+  /// probabilities, N × K × S × S, and carries the metadata of the ONNX file in its extra file "metadata.json".
   /// @throws ModelError when the file cannot be loaded or run, or the metadata do not fit.
   /// @throws RequestError when the number of threads is out of range.
   explicit TorchScriptPredictor(const std::filesystem::path& model, TorchOptions options = {});
@@ -34,12 +37,13 @@ class TorchScriptPredictor final : public RegionPredictor {
 
   const ModelInfo& info() const;
   Prediction predict(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal) const override;
+  std::vector<Prediction> predict_many(const OccupancyMap& map, const std::vector<RegionQuery>& queries) const override;
   /// Four pixels of a map for every pixel of the picture: what is finer does not show.
   int detail() const override { return 4 * info().input.size; }
 
  private:
-  class Network;
-  std::unique_ptr<Network> network_;
+  class Program;
+  std::unique_ptr<Program> program_;
 };
 
 }  // namespace lrrt

@@ -77,6 +77,14 @@ class Fields:
             raise self.refuse(key, "a whole number")
         return value
 
+    def wholes(self, key: str) -> list[int]:
+        """A list of whole numbers that is not empty."""
+        expected = "a list of whole numbers"
+        items = self._items(key, expected)
+        if not all(isinstance(item, int) and is_number(item) for item in items):
+            raise self.refuse(key, expected)
+        return items
+
     def number(self, key: str) -> float:
         """A finite number."""
         value = self._values.get(key)

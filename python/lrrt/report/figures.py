@@ -215,7 +215,8 @@ def predict_pictures(results: PredictResults) -> list[Picture]:
             threads = (
                 f"{row.threads} thread" + ("s" if row.threads > 1 else "") + (", spinning" if row.spinning else "")
             )
-            labels.append(f"{shown(names[row.model])}, {threads}" if several else threads)
+            batch = f", batches of {row.batch}" if row.batch > 1 else ""
+            labels.append((f"{shown(names[row.model])}, " if several else "") + threads + batch)
         axes.set_yticks(range(len(rows)), labels)
         axes.tick_params(axis="y", length=0)
         axes.set_ylim(len(rows) - 0.4, -0.6)

@@ -132,8 +132,10 @@ class Predictions:
 
     model: str
     size: int  #: side of the maps, pixels
+    sides: tuple[int, ...]  #: of the network's pictures, pixels; none in files of older versions
     threads: int
     spinning: bool
+    batch: int  #: predictions of one call
     times: npt.NDArray[np.float64]  #: (N, 4) milliseconds: encode, infer, region, all
 
 
@@ -258,7 +260,9 @@ def _predictions(row: Fields) -> Predictions:
     return Predictions(
         model=row.text("model"),
         size=row.whole("size"),
+        sides=tuple(row.wholes("input_sides")) if "input_sides" in row else (),
         threads=row.whole("threads"),
         spinning=row.flag("spinning"),
+        batch=row.whole("batch") if "batch" in row else 1,
         times=np.asarray(times, dtype=np.float64),
     )

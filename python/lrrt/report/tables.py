@@ -164,6 +164,9 @@ def settings_table(results: PlanResults) -> Table:
     return Table("Planners", columns, rows)
 
 
+_SETTING = ("model", "map, pixels", "input", "threads", "spinning", "batch")
+
+
 def predict_table(results: PredictResults) -> Table:
     """Median and 95 % quantile of each stage of a prediction."""
     names = model_names([row.model for row in results.rows])
@@ -174,13 +177,15 @@ def predict_table(results: PredictResults) -> Table:
         ]
         total = float(np.sum(row.times[:, 3]))
         per_second = 1e3 * len(row.times) / total if total > 0 else math.inf
-        setting = (names[row.model], f"{row.size}²", str(row.threads), "on" if row.spinning else "off")
-        rows.append((*setting, *stages, short_number(per_second)))
+        pictures = ", ".join(f"{side}²" for side in row.sides) or "-"
+        setting = (names[row.model], f"{row.size}²", pictures, str(row.threads), "on" if row.spinning else "off")
+        rows.append((*setting, str(row.batch), *stages, short_number(per_second)))
     return Table(
         "Time of one prediction, ms: median (95 % are below)",
-        ("model", "map, pixels", "threads", "spinning", "encode", "infer", "region", "all", "per second"),
+        (*_SETTING, "encode", "infer", "region", "all", "per second"),
         rows,
-        "Per second: predictions one after the other, all stages. Spinning: idle threads stay awake.",
+        "Per second: predictions, calls one after the other, all stages. Input: sides of the network's pictures. "
+        "Spinning: idle threads stay awake. Batch: predictions of one call; infer and all are their shares of it.",
     )
 
 

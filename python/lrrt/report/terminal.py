@@ -14,7 +14,8 @@ from lrrt.report.tables import Table, gains_table, means_table, medians_table, p
 _MEDIANS = ("solved (95 %)", "first path, ms", "prediction", "search", "iterations", "nodes", "length")
 _MEANS = ("first path, ms", "search", "iterations", "nodes", "motion checks", "length", "clearance")
 _GAINS = ("pairs", "first path", "search", "iterations", "nodes", "length")
-_PREDICTIONS = ("model", "map", "threads", "spinning", "encode", "infer", "region", "all", "per second")
+_SETTING = ("model", "map", "input", "threads", "spinning", "batch")
+_PREDICTIONS = (*_SETTING, "encode", "infer", "region", "all", "per second")
 
 
 def terminal_report(path: str | os.PathLike[str]) -> str:
@@ -29,7 +30,7 @@ def terminal_report(path: str | os.PathLike[str]) -> str:
 
 
 def _heading(head: Head) -> str:
-    names = {"lrrt": "lrrt", "ompl": "OMPL", "onnxruntime": "ONNX Runtime"}
+    names = {"lrrt": "lrrt", "ompl": "OMPL", "onnxruntime": "ONNX Runtime", "libtorch": "libtorch"}
     versions = ", ".join(f"{name} {head.versions[key]}" for key, name in names.items() if key in head.versions)
     cores = f", {head.machine['cores']} cores" if "cores" in head.machine else ""
     return f"{head.title}\n{versions}; {head.machine.get('processor', 'unknown')}{cores}\n\n"
@@ -57,7 +58,8 @@ def _predict_text(results: PredictResults) -> str:
     table: Table = predict_table(results)
     rows = [(PurePosixPath(row.model).name, *cells[1:]) for row, cells in zip(results.rows, table.rows)]
     note = (
-        "Milliseconds a prediction: median (95 % are below). Per second: predictions one after the other, all stages."
+        "Milliseconds a prediction: median (95 % are below); of a batch, infer and all are shares. Per second: "
+        "predictions, calls one after the other, all stages. Input: sides of the network's pictures."
     )
     return f"{note}\n" + _aligned(_PREDICTIONS, rows)
 
