@@ -80,6 +80,11 @@ tidy: build ## Run clang-tidy on the library (minutes)
 format: setup ## Format C++ and Python sources in place
 	@scripts/lint.sh fix
 
+.PHONY: docs
+docs: install-python ## Build the documentation's site: build/docs/html/index.html
+	@scripts/setup_apt.sh doxygen
+	@scripts/docs.sh
+
 .PHONY: clean
 clean: ## Remove what was built; .venv and .deps stay
 	rm -rf build dist

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <exception>
 #include <memory>
+#include <string>
 
 #include "lrrt/io/read_map.hpp"
 #include "lrrt/planner.hpp"
@@ -13,7 +14,8 @@
 
 int main(int argc, char** argv) try {
   lrrt::silence_ompl();  // OMPL tells every search on the console otherwise
-  const lrrt::OccupancyMap map = lrrt::read_map(argc > 1 ? argv[1] : "python/lrrt/data/maze35.png");
+  const std::string picture = argc > 1 ? argv[1] : "python/lrrt/data/maze35.png";
+  const lrrt::OccupancyMap map = lrrt::read_map(picture);
 
   lrrt::PlanOptions options;
   options.time_limit = 60.0;

@@ -11,7 +11,7 @@ python="$(find_python)" || die "no Python 3.10 or newer with venv and headers wa
 want="$(fingerprint "$venv" "$("$python" -VV)")"
 if [ ! -x "$venv/bin/python" ] || ! is_current venv "$want"; then
   say "Making .venv with $("$python" -V)"
-  rm -f "$stamps"/{python,training,tests,lrrt}
+  rm -f "$stamps"/{python,training,tests,lrrt,docs}
   "$python" -m venv --clear "$venv"
   mark_current venv "$want"
 fi

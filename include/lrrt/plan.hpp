@@ -77,7 +77,9 @@ Motion motion_from_string(const std::string& word);
 /// Lets another thread end a search. Copies share one flag, and a flag that was raised stays up: one token, one search.
 class CancelToken {
  public:
+  /// Raises the flag: the search ends within some hundredths of a second.
   void cancel() { flag_->store(true, std::memory_order_relaxed); }
+  /// True once the flag was raised.
   bool cancelled() const { return flag_->load(std::memory_order_relaxed); }
 
  private:
@@ -86,32 +88,33 @@ class CancelToken {
 
 /// What to plan. The map is only looked at: it must outlive the call.
 struct PlanRequest {
-  std::reference_wrapper<const OccupancyMap> map;
-  Eigen::Vector2d start;  ///< map units
-  Eigen::Vector2d goal;   ///< map units
-  double radius = 0.0;    ///< of a disc-shaped robot, map units; 0 for a point. With an outline: a margin around it
+  std::reference_wrapper<const OccupancyMap> map;  ///< where to plan
+  Eigen::Vector2d start;                           ///< map units
+  Eigen::Vector2d goal;                            ///< map units
+  double radius = 0.0;  ///< of a disc-shaped robot, map units; 0 for a point. With an outline: a margin around it
   UnknownIs unknown = UnknownIs::occupied;  ///< whether the robot may enter unknown pixels
   CancelToken cancel{};                     ///< ends the search from another thread
   /// The robot's outline in its own frame, map units; its reference point, the origin, must lie inside or on it.
   std::optional<Polygon> outline{};
-  Motion motion = Motion::plane;
-  double turning_radius = 0.0;  ///< tightest one, map units; for Motion::dubins and Motion::reeds_shepp
-  double start_heading = 0.0;   ///< radians from the map's x axis towards its y axis; not for Motion::plane
-  double goal_heading = 0.0;    ///< the same
+  Motion motion = Motion::plane;  ///< how the robot moves
+  double turning_radius = 0.0;    ///< tightest one, map units; for Motion::dubins and Motion::reeds_shepp
+  double start_heading = 0.0;     ///< radians from the map's x axis towards its y axis; not for Motion::plane
+  double goal_heading = 0.0;      ///< the same
 };
 
 /// How to plan.
 struct PlanOptions {
-  std::string planner = "RRTstar";         ///< one of planner_names(): RRT, RRTConnect, RRTstar
+  std::string planner = "RRTstar";         ///< one of planner_names()
   Strategy strategy = Strategy::frontier;  ///< where guided samples come from
   double alpha = 0.8;                      ///< share of guided samples, 0 to 1; 1 gives up completeness
   double range = 0.0;           ///< longest extension of the tree, map units; 0 chooses by the map's clearance
   double goal_bias = 0.05;      ///< share of iterations that aim at the goal (RRT and RRT*)
   double goal_tolerance = 0.0;  ///< the path may end this far from the goal, map units; 0 ends exactly there
-  Stop stop = Stop::first;
+  Stop stop = Stop::first;      ///< when to stop
   /// For Stop::factor. The reference is the shortest grid path of the reference point, straightened by line of sight.
   double cost_factor = 1.05;
   double time_limit = 5.0;  ///< seconds of planning, prediction not counted
+  /// Most iterations of the planner; no limit by default.
   std::size_t iteration_limit = std::numeric_limits<std::size_t>::max();
   std::uint64_t seed = 1;                 ///< same seed, same result on one thread (unless time ends the search)
   bool keep_tree = false;                 ///< return the tree's edges
@@ -124,28 +127,28 @@ struct PlanTimings {
   /// Inflation, reachability, distance field; choosing a range, the reference cost, setting up OMPL.
   double prepare = 0.0;
   double encode = 0.0;  ///< see PredictTimings
-  double infer = 0.0;
-  double region = 0.0;
-  double plan = 0.0;   ///< the sampling-based search
-  double total = 0.0;  ///< the whole call
+  double infer = 0.0;   ///< see PredictTimings
+  double region = 0.0;  ///< see PredictTimings
+  double plan = 0.0;    ///< the sampling-based search
+  double total = 0.0;   ///< the whole call
 };
 
 /// A shorter path found on the way.
 struct CostStep {
-  double time = 0.0;  ///< milliseconds since the search began
-  std::size_t iteration = 0;
-  double cost = 0.0;  ///< as PlanResult::cost
+  double time = 0.0;          ///< milliseconds since the search began
+  std::size_t iteration = 0;  ///< iterations of the planner up to then
+  double cost = 0.0;          ///< as PlanResult::cost
 };
 
 /// One edge of the tree, map units.
 struct TreeEdge {
-  Eigen::Vector2d from;
-  Eigen::Vector2d to;
+  Eigen::Vector2d from;  ///< one end
+  Eigen::Vector2d to;    ///< the other end
 };
 
 /// What came out.
 struct PlanResult {
-  PlanStatus status = PlanStatus::time_limit;
+  PlanStatus status = PlanStatus::time_limit;  ///< how the call ended
   /// Map units, from start to goal; empty unless solved. In the plane the corners of the path; else poses along the
   /// true curve, between which no point of the robot moves farther than about a pixel.
   std::vector<Eigen::Vector2d> path;
@@ -160,9 +163,10 @@ struct PlanResult {
   std::vector<CostStep> cost_history;             ///< strictly falling costs (RRT*)
   std::vector<TreeEdge> tree;                     ///< only with PlanOptions::keep_tree; straight, also for arcs
   std::shared_ptr<const PromisingRegion> region;  ///< the region that was used; on large maps in larger pixels
-  double reused = 0.0;  ///< share of the path's cost that Session::replan() took over from the path before
-  PlanTimings timings{};
+  double reused = 0.0;    ///< share of the path's cost that Session::replan() took over from the path before
+  PlanTimings timings{};  ///< what each stage took
 
+  /// True when a path was found.
   bool solved() const { return status == PlanStatus::solved; }
 };
 

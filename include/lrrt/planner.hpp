@@ -17,6 +17,7 @@ class Planner {
   /// @throws RequestError when an option is out of range or the strategy needs a predictor and there is none.
   explicit Planner(std::shared_ptr<const RegionPredictor> predictor = nullptr, PlanOptions options = {});
 
+  /// The options that every call uses.
   const PlanOptions& options() const { return options_; }
   /// Null where planning is unguided.
   const std::shared_ptr<const RegionPredictor>& predictor() const { return predictor_; }

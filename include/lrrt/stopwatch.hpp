@@ -8,6 +8,7 @@ namespace lrrt {
 /// Wall-clock time since it was made or last read.
 class Stopwatch {
  public:
+  /// A clock that is never set back.
   using Clock = std::chrono::steady_clock;
 
   /// Milliseconds since the start or the last lap; begins a new lap.

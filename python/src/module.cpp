@@ -32,15 +32,27 @@ void translate(std::exception_ptr pointer) {
   }
 }
 
+template <typename Exception>
+py::handle documented(py::module_& module, const char* name, const py::handle& base, const char* text) {
+  const py::exception<Exception> type(module, name, base);
+  type.attr("__doc__") = text;
+  return type;  // the module holds it
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_core, module) {
   module.doc() = "Compiled core of lrrt: maps, promising regions and guided planners.";
 
-  const py::exception<lrrt::Error> error(module, "Error", PyExc_ValueError);
-  const py::exception<lrrt::MapError> map_error(module, "MapError", error.ptr());
-  const py::exception<lrrt::ModelError> model_error(module, "ModelError", error.ptr());
-  const py::exception<lrrt::RequestError> request_error(module, "RequestError", error.ptr());
+  const py::handle error = documented<lrrt::Error>(
+      module, "Error", PyExc_ValueError,
+      "Base of every error that lrrt raises on purpose: it names the value found and what was expected.");
+  documented<lrrt::MapError>(module, "MapError", error,
+                             "A map that cannot be read or makes no sense: missing file, broken header, wrong sizes.");
+  documented<lrrt::ModelError>(module, "ModelError", error,
+                               "A model that cannot be loaded or run: no runtime, broken file, unfit metadata.");
+  documented<lrrt::RequestError>(module, "RequestError", error,
+                                 "A request or an option out of its range: a share above 1, an unknown planner.");
   py::register_exception_translator(&translate);
 
   lrrt::python::bind_map(module);

@@ -39,12 +39,13 @@ def train(
     """
     from lightning.pytorch.utilities import rank_zero_only
 
+    from .train import CheckpointError
     from .train import train as run
 
     try:
         folder = run(["--config", str(config), *context.args])
         rank_zero_only(typer.echo)(f"trained: {folder}")
-    except FileNotFoundError as error:
+    except (FileNotFoundError, CheckpointError) as error:
         raise typer.BadParameter(str(error)) from error
     except KeyboardInterrupt as stop:
         typer.echo(str(stop) or "interrupted; the same command goes on", err=True)
@@ -87,11 +88,11 @@ def export(
 ) -> None:
     """Export a run to ONNX and compare the file with PyTorch."""
     from . import export as files
-    from .train import load_data, load_network
+    from .train import CheckpointError, load_data, load_network
 
     try:
         network, training = load_network(run), load_data(run)
-    except FileNotFoundError as error:
+    except (FileNotFoundError, CheckpointError) as error:
         raise typer.BadParameter(str(error)) from error
     stage = training.curriculum.stages[-1]
     *smaller, size = [size] if size else sorted(set(stage.sizes))

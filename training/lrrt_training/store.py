@@ -121,7 +121,7 @@ class MazeStore:
     def _load(self, split: str, level: int) -> np.ndarray | None:
         """The packed mazes, or None where the file is absent, broken or made with other settings."""
         try:
-            with np.load(self.path(split, level)) as file:
+            with np.load(self.path(split, level), allow_pickle=False) as file:
                 if not np.array_equal(file["settings"], self._settings(split)):
                     return None
                 return file["mazes"]

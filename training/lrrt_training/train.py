@@ -5,9 +5,11 @@ from __future__ import annotations
 
 import contextlib
 import os
+import pickle
 import sys
 import time
 import warnings
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +24,22 @@ from .data import RegionData
 from .module import RegionModule
 
 CHECKPOINT, CONFIG = "last.ckpt", "config.yaml"
+
+
+class CheckpointError(ValueError):
+    """A checkpoint that is none, or that holds more than data."""
+
+
+@contextlib.contextmanager
+def _data_alone(checkpoint: Path) -> Iterator[None]:
+    """Says what is wrong where PyTorch refuses a file; its own words advise to load it without the check."""
+    try:
+        yield
+    except pickle.UnpicklingError:
+        raise CheckpointError(
+            f"{checkpoint}: refused: expected a checkpoint that holds tensors, numbers and words alone; this file is "
+            "broken, or would run code when it is loaded. Delete it if you do not know where it comes from"
+        ) from None
 
 
 class TimedCheckpoint(lightning.Callback):
@@ -133,6 +151,7 @@ def train(arguments: list[str]) -> Path:
 
     Raises:
         FileNotFoundError: there is no checkpoint at ``weights``.
+        CheckpointError: a checkpoint holds more than data.
         KeyboardInterrupt: Ctrl-C; the checkpoint was saved before.
     """
     warnings.filterwarnings("ignore", ".*your dataloader is not resumable")  # it is: by the number of the first sample
@@ -141,7 +160,7 @@ def train(arguments: list[str]) -> Path:
     checkpoint = folder / CHECKPOINT if (folder / CHECKPOINT).exists() else None
     if checkpoint is None and cli.config.weights:
         cli.model.network.load_state_dict(_network_weights(Path(cli.config.weights)))
-    with contextlib.suppress(SystemExit):  # what Lightning makes of Ctrl-C
+    with _data_alone(folder / CHECKPOINT), contextlib.suppress(SystemExit):  # what Lightning makes of Ctrl-C
         cli.trainer.fit(cli.model, cli.datamodule, ckpt_path=checkpoint, weights_only=True)
     if cli.trainer.interrupted:
         raise KeyboardInterrupt(f"interrupted; the same command goes on from {folder}")
@@ -164,7 +183,8 @@ def _configuration(run: Path) -> dict[str, Any]:
 def _network_weights(checkpoint: Path) -> dict[str, torch.Tensor]:
     if not checkpoint.exists():
         raise FileNotFoundError(f"{checkpoint}: no checkpoint there; train the run that it belongs to first")
-    state = torch.load(checkpoint, weights_only=True, map_location="cpu")["state_dict"]
+    with _data_alone(checkpoint):
+        state = torch.load(checkpoint, weights_only=True, map_location="cpu")["state_dict"]
     return {k.removeprefix("network."): v for k, v in state.items() if k.startswith("network.")}
 
 

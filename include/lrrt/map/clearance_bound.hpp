@@ -17,7 +17,7 @@ namespace lrrt {
 /// Holds a reference: the map must outlive it. Safe to share between threads.
 class ClearanceBound {
  public:
-  /// @param most_side longest side, pixels, of the field that is computed.
+  /// Computes the field. @param most_side its longest side, pixels.
   explicit ClearanceBound(const OccupancyMap& map, int most_side = 1024);
 
   /// A lower bound of the distance, in pixels, from the centre of a pixel to that of the nearest one that is not free;

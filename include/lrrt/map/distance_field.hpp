@@ -11,9 +11,12 @@ namespace lrrt {
 /// free. Everything outside the map counts as not free. Computed in linear time (Meijster, Roerdink, Hesselink 2000).
 class DistanceField {
  public:
+  /// Computes the distances of a map.
   explicit DistanceField(const OccupancyMap& map);
 
+  /// Columns.
   int width() const { return width_; }
+  /// Rows.
   int height() const { return height_; }
   /// Distance at a pixel; 0 for a pixel that is not free or lies outside the map.
   float at(Pixel p) const {

@@ -18,6 +18,7 @@ class Flood {
   /// @param from where the flood begins; outside the set it reaches nothing.
   Flood(const std::vector<std::uint8_t>& mask, int width, int height, Pixel from);
 
+  /// True for a pixel that was reached; not after take().
   bool reached(Pixel p) const {
     if (p.c < 0 || p.r < 0 || p.c >= width_ || p.r >= height_) return false;
     return reached_[static_cast<std::size_t>(p.r) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(p.c)] !=

@@ -21,7 +21,9 @@ struct Image {
   int channels = 1;                  ///< 1 to 4
   std::vector<std::uint8_t> pixels;  ///< width × height × channels values
 
+  /// True when the last channel is transparency.
   bool has_alpha() const { return channels == 2 || channels == 4; }
+  /// Channels without transparency: 1 for grey, 3 for colours.
   int color_channels() const { return has_alpha() ? channels - 1 : channels; }
 };
 

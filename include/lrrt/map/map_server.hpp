@@ -10,7 +10,11 @@
 namespace lrrt {
 
 /// How the brightness of a map_server picture turns into occupancy.
-enum class MapServerMode { trinary, scale, raw };
+enum class MapServerMode {
+  trinary,  ///< thresholds; in between is unknown
+  scale,    ///< the same, and transparent pixels are unknown
+  raw,      ///< the brightness is the occupancy in percent
+};
 
 /// Meta data of a map in the format of ROS map_server (ROS 1 map_server, ROS 2 nav2_map_server).
 struct MapServerMeta {

@@ -9,25 +9,34 @@
 namespace lrrt {
 
 /// State of one pixel of a map.
-enum class Cell : std::uint8_t { free = 0, occupied = 1, unknown = 2 };
+enum class Cell : std::uint8_t {
+  free = 0,      ///< the robot may be here
+  occupied = 1,  ///< an obstacle
+  unknown = 2,   ///< not seen; see UnknownIs
+};
 
 /// Whether a planner may pass through unknown pixels.
-enum class UnknownIs : std::uint8_t { occupied, free };
+enum class UnknownIs : std::uint8_t {
+  occupied,  ///< unknown pixels are obstacles
+  free,      ///< unknown pixels are free
+};
 
 /// Column and row of a pixel; row 0 is the top of the picture.
 struct Pixel {
-  int c = 0;
-  int r = 0;
+  int c = 0;  ///< column
+  int r = 0;  ///< row
+  /// True for the same pixel.
   friend bool operator==(Pixel a, Pixel b) { return a.c == b.c && a.r == b.r; }
+  /// True for another pixel.
   friend bool operator!=(Pixel a, Pixel b) { return !(a == b); }
 };
 
 /// Axis-aligned box of pixels: columns [c, c + width), rows [r, r + height).
 struct PixelBox {
-  int c = 0;
-  int r = 0;
-  int width = 0;
-  int height = 0;
+  int c = 0;       ///< first column
+  int r = 0;       ///< first row
+  int width = 0;   ///< columns
+  int height = 0;  ///< rows
 };
 
 /// A position and a heading in the plane: of a robot, or of a map's lower-left corner in its frame.
@@ -39,8 +48,8 @@ struct Pose2 {
 
 /// Axis-aligned bounds in map units.
 struct Bounds {
-  Eigen::Vector2d low = Eigen::Vector2d::Zero();
-  Eigen::Vector2d high = Eigen::Vector2d::Zero();
+  Eigen::Vector2d low = Eigen::Vector2d::Zero();   ///< least x and y
+  Eigen::Vector2d high = Eigen::Vector2d::Zero();  ///< largest x and y
 };
 
 /// Most pixels that a map may have: 16384 × 16384.
@@ -66,25 +75,31 @@ class OccupancyMap {
   /// metres.
   OccupancyMap(int width, int height, std::vector<Cell> cells, double resolution, Pose2 origin);
 
+  /// Columns.
   int width() const { return width_; }
+  /// Rows.
   int height() const { return height_; }
+  /// Number of pixels.
   std::size_t size() const { return cells_.size(); }
+  /// Row-major, row 0 at the top.
   const std::vector<Cell>& cells() const { return cells_; }
 
   /// True for a map in metres, false for a plain picture.
   bool is_metric() const { return frame_.metric; }
   /// Map units per pixel; 1 for a plain picture, unless it was coarsened.
   double resolution() const { return frame_.resolution * frame_.coarseness; }
-  /// Pose of the lower-left corner of a metric map's lower-left pixel.
+  /// Pose of the lower-left corner of the lower-left pixel; zeros for a plain picture.
   Pose2 origin() const;
   /// Pixels along either side of this map's pixels in the map that it was made from, see coarsened(); else 1.
   int coarseness() const { return frame_.coarseness; }
 
+  /// True when the pixel lies on the map.
   bool contains(Pixel p) const { return p.c >= 0 && p.r >= 0 && p.c < width_ && p.r < height_; }
   /// Row-major index of a pixel that the map contains.
   std::size_t index(Pixel p) const {
     return static_cast<std::size_t>(p.r) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(p.c);
   }
+  /// State of a pixel that the map contains.
   Cell at(Pixel p) const { return cells_[index(p)]; }
   /// True when the pixel lies on the map and is free (unknown is not free; see resolved()).
   bool is_free(Pixel p) const { return contains(p) && at(p) == Cell::free; }

@@ -16,6 +16,7 @@ namespace lrrt {
 /// Holds a reference: the bound must outlive the walk. Safe to share between threads.
 class SegmentWalk {
  public:
+  /// A walk over the map of a bound, which must outlive it.
   explicit SegmentWalk(const ClearanceBound& clearance) : clearance_(clearance) {}
 
   /// True when the point, in pixel coordinates, lies on a free pixel.

@@ -32,7 +32,9 @@ class FootprintWalk {
   /// @throws RequestError when the sizes of map and field differ or the tolerance is out of its range.
   FootprintWalk(const OccupancyMap& map, const DistanceField& field, Polygon polygon, double tolerance = 0.05);
 
+  /// The robot's outline.
   const Polygon& polygon() const { return polygon_; }
+  /// Pixels: motions that come nearer than this to an obstacle may be refused.
   double tolerance() const { return tolerance_; }
 
   /// True when the robot touches nothing at a pose. A pose that is not finite is not free.

@@ -15,10 +15,12 @@ class ForwardSpace final : public ompl::base::DubinsStateSpace {
   /// The shortest curve of at most three arcs and straight lines, for a turning radius of 1 (Dubins 1957).
   DubinsPath curve(const ompl::base::State* from, const ompl::base::State* to) const;
 
+  /// Length of the curve; the way back may have another.
   double distance(const ompl::base::State* from, const ompl::base::State* to) const override {
     return rho_ * curve(from, to).length();
   }
   using ompl::base::DubinsStateSpace::interpolate;
+  /// The state at a share t of the curve, in [0, 1].
   void interpolate(const ompl::base::State* from, const ompl::base::State* to, double t,
                    ompl::base::State* state) const override;
   /// @param first_time whether the path is still to be found; it is false afterwards.

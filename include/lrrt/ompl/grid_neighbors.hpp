@@ -36,6 +36,8 @@ class GridNeighbors final : public ompl::NearestNeighbors<Motion> {
     cells_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
   }
 
+  /// What OMPL asks, see ompl::NearestNeighbors.
+  /// @{
   void clear() override {
     for (std::vector<Node>& cell : cells_) cell.clear();
     size_ = 0;
@@ -112,6 +114,7 @@ class GridNeighbors final : public ompl::NearestNeighbors<Motion> {
       for (const Node& node : nodes) all.push_back(node.motion);
     }
   }
+  /// @}
 
  private:
   static constexpr double most_cells = 64.0;  ///< along the longer side

@@ -18,6 +18,9 @@ class GuidedInformedSampler final : public ompl::base::InformedSampler {
   GuidedInformedSampler(const ompl::base::ProblemDefinitionPtr& problem, unsigned int attempts,
                         ompl::base::InformedSamplerPtr inner, std::shared_ptr<GuidedSource> source,
                         bool cost_is_length);
+
+  /// What OMPL asks, see ompl::base::InformedSampler.
+  /// @{
   bool sampleUniform(ompl::base::State* state, const ompl::base::Cost& most) override;
   bool sampleUniform(ompl::base::State* state, const ompl::base::Cost& least, const ompl::base::Cost& most) override;
   bool hasInformedMeasure() const override { return inner_->hasInformedMeasure(); }
@@ -28,6 +31,7 @@ class GuidedInformedSampler final : public ompl::base::InformedSampler {
   ompl::base::Cost heuristicSolnCost(const ompl::base::State* state) const override {
     return inner_->heuristicSolnCost(state);
   }
+  /// @}
 
  private:
   bool guided(ompl::base::State* state, const ompl::base::Cost* least, const ompl::base::Cost& most);
@@ -48,6 +52,8 @@ class GuidedObjective final : public ompl::base::OptimizationObjective {
   GuidedObjective(ompl::base::OptimizationObjectivePtr inner, std::shared_ptr<GuidedSource> source,
                   bool cost_is_length);
 
+  /// What OMPL asks, see ompl::base::OptimizationObjective.
+  /// @{
   ompl::base::Cost stateCost(const ompl::base::State* state) const override { return inner_->stateCost(state); }
   ompl::base::Cost motionCost(const ompl::base::State* from, const ompl::base::State* to) const override {
     return inner_->motionCost(from, to);
@@ -78,6 +84,7 @@ class GuidedObjective final : public ompl::base::OptimizationObjective {
   ompl::base::InformedSamplerPtr allocInformedStateSampler(const ompl::base::ProblemDefinitionPtr& problem,
                                                            unsigned int attempts) const override;
   void print(std::ostream& out) const override { inner_->print(out); }
+  /// @}
 
  private:
   ompl::base::OptimizationObjectivePtr inner_;

@@ -63,6 +63,7 @@ class GuidedSource {
   /// @param states its states in either order, with or without start and goal, as OMPL's planners report them.
   /// @param length map units; infinite where the cost of the path is no length.
   void improved(const std::vector<const ompl::base::State*>& states, double length);
+  /// How many states were guided and how many uniform.
   DrawCounts counts() const { return sampler_.counts(); }
 
  private:
@@ -84,6 +85,7 @@ class GuidedSource {
 /// The paper's biased sampler as OMPL's ValidStateSampler: only collision-free states. For planners such as PRM.
 class GuidedValidStateSampler final : public ompl::base::ValidStateSampler {
  public:
+  /// A sampler of a source, which others may share.
   GuidedValidStateSampler(const ompl::base::SpaceInformation* si, std::shared_ptr<GuidedSource> source);
   /// False when no free state was found within OMPL's number of attempts.
   bool sample(ompl::base::State* state) override;
@@ -98,9 +100,13 @@ class GuidedValidStateSampler final : public ompl::base::ValidStateSampler {
 /// The same source as OMPL's StateSampler, whose states may be in collision. For planners such as RRT and RRT*.
 class GuidedStateSampler final : public ompl::base::StateSampler {
  public:
+  /// A sampler of a source, which others may share.
   GuidedStateSampler(const ompl::base::StateSpace* space, std::shared_ptr<GuidedSource> source);
+  /// The source's next state, guided or uniform.
   void sampleUniform(ompl::base::State* state) override;
+  /// A state at most `distance` away from another one, map units.
   void sampleUniformNear(ompl::base::State* state, const ompl::base::State* near, double distance) override;
+  /// A state around another one, as OMPL draws it, without guidance.
   void sampleGaussian(ompl::base::State* state, const ompl::base::State* mean, double deviation) override;
 
  private:
@@ -111,9 +117,12 @@ class GuidedStateSampler final : public ompl::base::StateSampler {
 /// Checks motions by another validator and tells the source of those that are free.
 class ObservingMotionValidator final : public ompl::base::MotionValidator {
  public:
+  /// @param inner what decides. @param source what is told.
   ObservingMotionValidator(ompl::base::SpaceInformation* si, ompl::base::MotionValidatorPtr inner,
                            std::shared_ptr<GuidedSource> source);
+  /// What `inner` says.
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to) const override;
+  /// What `inner` says, and its last valid state.
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to,
                    std::pair<ompl::base::State*, double>& last_valid) const override;
 

@@ -21,12 +21,14 @@ namespace lrrt {
 /// A map made ready for collision checks: its frame, its distances and the walk over it. Safe to share between threads.
 class CollisionMap {
  public:
+  /// Unknown pixels count as obstacles, see OccupancyMap::resolved.
   explicit CollisionMap(OccupancyMap map) : CollisionMap(std::make_shared<const OccupancyMap>(std::move(map))) {}
-  /// @param map not null.
+  /// The same for a map that others hold, too. @param map not null.
   explicit CollisionMap(std::shared_ptr<const OccupancyMap> map) : map_(std::move(map)), bound_(*map_), walk_(bound_) {}
   CollisionMap(const CollisionMap&) = delete;
   CollisionMap& operator=(const CollisionMap&) = delete;
 
+  /// The map.
   const OccupancyMap& map() const { return *map_; }
   /// The exact distances; computed when they are first asked for where motions are checked by a coarser bound.
   const DistanceField& field() const;
@@ -52,8 +54,10 @@ class CollisionMap {
 /// OMPL's view of CollisionMap::is_free for states.
 class MapValidityChecker final : public ompl::base::StateValidityChecker {
  public:
+  /// @param projection where a state stands on the map.
   MapValidityChecker(const ompl::base::SpaceInformationPtr& si, std::shared_ptr<const CollisionMap> map,
                      std::shared_ptr<const MapProjection> projection);
+  /// True when the state's point is free.
   bool isValid(const ompl::base::State* state) const override;
   /// Distance to the nearest obstacle, map units: a lower bound of it, never negative.
   double clearance(const ompl::base::State* state) const override;
@@ -70,6 +74,7 @@ class MapMotionValidator final : public ompl::base::MotionValidator {
   /// @param limits when given, no motion is free any more once they say that the search must end.
   MapMotionValidator(const ompl::base::SpaceInformationPtr& si, std::shared_ptr<const CollisionMap> map,
                      std::shared_ptr<const MapProjection> projection, std::shared_ptr<SearchLimits> limits = nullptr);
+  /// True when every pixel that the motion touches is free.
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to) const override;
   /// Also finds the last free state, by bisection.
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to,

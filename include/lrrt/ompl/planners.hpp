@@ -20,7 +20,7 @@ struct PlannerSettings {
 
 /// An OMPL planner and what OMPL's common interface does not tell.
 struct MapPlanner {
-  ompl::base::PlannerPtr planner;
+  ompl::base::PlannerPtr planner;      ///< without a problem yet
   std::function<std::size_t()> nodes;  ///< number of nodes in the tree, trees or roadmap
 };
 

@@ -72,6 +72,7 @@ class Steering {
   /// @param reach see PoseMotion.
   /// @throws RequestError for another space, and for a Dubins space that is symmetric.
   Steering(const ompl::base::StateSpace& space, double reach);
+  /// The motion from one state to another; the way back may be another one.
   PoseMotion between(const ompl::base::State* from, const ompl::base::State* to) const;
 
  private:

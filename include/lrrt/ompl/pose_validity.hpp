@@ -23,7 +23,9 @@ class CollisionBody {
   CollisionBody(const CollisionBody&) = delete;
   CollisionBody& operator=(const CollisionBody&) = delete;
 
+  /// The map.
   const std::shared_ptr<const CollisionMap>& map() const { return map_; }
+  /// The robot's outline.
   const Polygon& outline() const { return walk_.polygon(); }
   /// True when the robot touches nothing at a pose.
   bool is_free(const Pose2& pose) const { return walk_.is_free(pose); }
@@ -39,7 +41,9 @@ class CollisionBody {
 /// OMPL's view of CollisionBody::is_free for the states of SE2StateSpace and those that derive from it.
 class PoseValidityChecker final : public ompl::base::StateValidityChecker {
  public:
+  /// @param body robot and map.
   PoseValidityChecker(const ompl::base::SpaceInformationPtr& si, std::shared_ptr<const CollisionBody> body);
+  /// True when the robot touches nothing at the state's pose.
   bool isValid(const ompl::base::State* state) const override;
   /// Distance to the nearest obstacle, map units: a lower bound of it, never negative.
   double clearance(const ompl::base::State* state) const override;
@@ -57,6 +61,7 @@ class PoseMotionValidator final : public ompl::base::MotionValidator {
   /// @throws RequestError when the space is none of the three.
   PoseMotionValidator(const ompl::base::SpaceInformationPtr& si, std::shared_ptr<const CollisionBody> body,
                       std::shared_ptr<SearchLimits> limits = nullptr);
+  /// True when the robot touches nothing along the motion.
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to) const override;
   /// Also finds the last free state, by bisection.
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to,

@@ -14,6 +14,7 @@ namespace lrrt {
 /// Decides when a search has to end, and remembers why. Belongs to one search; PRM asks from two threads.
 class SearchLimits {
  public:
+  /// Starts the clock. @param cancel ends the search from another thread.
   SearchLimits(double seconds, std::size_t iterations, CancelToken cancel)
       : limit_ms_(seconds * 1e3), iteration_limit_(iterations), cancel_(std::move(cancel)) {}
 
@@ -41,7 +42,9 @@ class SearchLimits {
     return interrupted_;
   }
 
+  /// Iterations that were counted.
   std::size_t iterations() const { return iterations_; }
+  /// Milliseconds since the clock was started.
   double elapsed_ms() const { return watch_.total_ms(); }
 
   /// Why a search without a solution ended.

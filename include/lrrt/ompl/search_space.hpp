@@ -17,8 +17,8 @@ namespace lrrt {
 
 /// A path as it is handed out, map units and radians.
 struct Trace {
-  std::vector<Eigen::Vector2d> points;
-  std::vector<double> headings;  ///< one for each point; empty in the plane
+  std::vector<Eigen::Vector2d> points;  ///< from start to goal
+  std::vector<double> headings;         ///< one for each point; empty in the plane
 };
 
 /// The space that a search moves in: what a MapSearch has to know of the robot.

@@ -65,6 +65,7 @@ class Encoder {
   /// sides do not ascend below `size`, or the least passage is not within 1 to `size`.
   explicit Encoder(InputSpec spec = {});
 
+  /// What the network expects.
   const InputSpec& spec() const { return spec_; }
 
   /// @param start,goal map units. @param image receives 3 × side × side bytes, the red, the green, the blue plane; side

@@ -33,9 +33,12 @@ class OnnxPredictor final : public RegionPredictor {
   /// @throws RequestError when the number of threads is out of range.
   explicit OnnxPredictor(const std::filesystem::path& model = default_model_path(), OnnxOptions options = {});
   ~OnnxPredictor() override;
+  /// A predictor that was moved from may only be assigned to or destroyed.
   OnnxPredictor(OnnxPredictor&&) noexcept;
+  /// As the constructor.
   OnnxPredictor& operator=(OnnxPredictor&&) noexcept;
 
+  /// What the model file says of itself.
   const ModelInfo& info() const;
   Prediction predict(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal) const override;
   std::vector<Prediction> predict_many(const OccupancyMap& map, const std::vector<RegionQuery>& queries) const override;

@@ -25,9 +25,9 @@ struct PredictTimings {
 
 /// A promising region and what it cost.
 struct Prediction {
-  PromisingRegion region;
-  PredictTimings timings{};
-  int input_side = 0;  ///< of the network's picture, pixels; 0 without a network
+  PromisingRegion region;    ///< where a path probably lies
+  PredictTimings timings{};  ///< what each stage took
+  int input_side = 0;        ///< of the network's picture, pixels; 0 without a network
 };
 
 /// Marks where a path probably lies. Implementations are safe to call from many threads at once.

@@ -32,9 +32,12 @@ class TorchScriptPredictor final : public RegionPredictor {
   /// @throws RequestError when the number of threads is out of range.
   explicit TorchScriptPredictor(const std::filesystem::path& model, TorchOptions options = {});
   ~TorchScriptPredictor() override;
+  /// A predictor that was moved from may only be assigned to or destroyed.
   TorchScriptPredictor(TorchScriptPredictor&&) noexcept;
+  /// As the constructor.
   TorchScriptPredictor& operator=(TorchScriptPredictor&&) noexcept;
 
+  /// What the model file says of itself.
   const ModelInfo& info() const;
   Prediction predict(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal) const override;
   std::vector<Prediction> predict_many(const OccupancyMap& map, const std::vector<RegionQuery>& queries) const override;

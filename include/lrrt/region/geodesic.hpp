@@ -15,7 +15,7 @@ namespace lrrt {
 /// counted 5 and 7 (Borgefors 1986: within 2 % of 1 and √2), so that a few buckets replace a heap (Dial 1969).
 class Geodesic {
  public:
-  static constexpr std::int32_t unreached = -1;
+  static constexpr std::int32_t unreached = -1;   ///< distance of a pixel that no way leads to
   static constexpr std::int32_t straight = 5;     ///< counted length of a step to the side
   static constexpr std::int32_t diagonal = 7;     ///< counted length of a step to a corner
   static constexpr double unit = 1.0 / straight;  ///< pixels per counted length

@@ -18,7 +18,9 @@ class PromisingRegion {
   PromisingRegion(const OccupancyMap& map, std::vector<float> probability, Pixel start, Pixel goal,
                   float threshold = 0.5F);
 
+  /// Columns.
   int width() const { return width_; }
+  /// Rows.
   int height() const { return height_; }
   /// OccupancyMap::coarseness() of the map that the region was predicted for: above 1 for a region on larger pixels.
   int coarseness() const { return coarseness_; }

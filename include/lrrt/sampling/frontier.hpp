@@ -24,7 +24,7 @@ enum class Growth {
 /// What a frontier has to know of the planner.
 struct FrontierOptions {
   double step = 6.0;  ///< longest extension of a tree, pixels: the band reaches two of them ahead, one back
-  Growth growth = Growth::one_tree;
+  Growth growth = Growth::one_tree;  ///< how the planner uses its samples
 };
 
 /// Points just ahead of the tree.

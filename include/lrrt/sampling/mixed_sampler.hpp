@@ -14,8 +14,8 @@ namespace lrrt {
 
 /// How many points were drawn from where.
 struct DrawCounts {
-  std::size_t guided = 0;
-  std::size_t uniform = 0;
+  std::size_t guided = 0;   ///< from the strategy
+  std::size_t uniform = 0;  ///< from the whole map
 };
 
 /// The paper's sampler: with probability α a guided point, otherwise a uniform one of the whole map.
@@ -62,6 +62,7 @@ class MixedSampler {
   }
   /// Passes a better path on to the guided strategy, see SamplingStrategy::improved.
   void improved(const std::vector<Eigen::Vector2d>& path, double length);
+  /// Draws so far, those that others made and counted here included.
   DrawCounts counts() const { return counts_; }
 
  private:

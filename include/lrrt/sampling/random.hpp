@@ -11,6 +11,7 @@ namespace lrrt {
 /// but not that of its distributions, so the few that are needed stand here.
 class Random {
  public:
+  /// The same seed gives the same numbers.
   explicit Random(std::uint64_t seed) : engine_(seed) {}
 
   /// Uniform in [0, 1).

@@ -11,6 +11,7 @@ namespace lrrt {
 /// those of an ellipse with start and goal as foci (Gammell, Srinivasa, Barfoot 2014).
 class UniformStrategy {
  public:
+  /// Points of a map of so many columns and rows.
   UniformStrategy(int width, int height) : width_(width), height_(height) {}
 
   /// One random point, pixel coordinates. Allocates nothing.
