@@ -15,7 +15,9 @@ int main(int argc, char** argv) try {
   const lrrt::OccupancyMap map = lrrt::read_map(argc > 1 ? argv[1] : "python/lrrt/data/maze35.png");
 
   const lrrt::OnnxPredictor predictor;  // load once, use for every query and from every thread
-  const auto [region, timings] = predictor.predict(map, {10.5, 10.5}, {234.5, 234.5});
+  const lrrt::Prediction prediction = predictor.predict(map, {10.5, 10.5}, {234.5, 234.5});
+  const lrrt::PromisingRegion& region = prediction.region;
+  const lrrt::PredictTimings& timings = prediction.timings;
 
   std::printf("%zu promising pixels, connected: %s, %.0f ms\n", region.area(), region.connected() ? "yes" : "no",
               timings.encode + timings.infer + timings.region);

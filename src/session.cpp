@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -51,23 +52,28 @@ class Session::Memory {
 
   const OccupancyMap& map() const { return map_; }
 
-  PlanResult plan(const Query& query, const CancelToken& cancel) {
-    const PlanRequest request = request_for(query, cancel);
-    check(request, planner_.options());
-    const Stopwatch watch;
-    last_ = query;
-    PlanResult result;
-    if (!space_) space_.emplace(make_free_space(request, planner_.predictor().get(), result));
-    if (const std::optional<Prepared> prepared = look(*space_, request, planner_.options(), result)) {
-      if (planner_.predictor()) {
-        take_region(planner_.predictor()->predict(*prepared->guidance, request.start, request.goal), *prepared, request,
-                    result);
-      }
-      search(*prepared, request, planner_.options(), result);
+  std::vector<PlanResult> plan(const std::vector<Query>& queries, const CancelToken& cancel) {
+    std::vector<Task> tasks;
+    for (const Query& query : queries) {
+      tasks.push_back({request_for(query, cancel), std::nullopt, {}});
+      check(tasks.back().request, planner_.options());
     }
-    result.timings.total = watch.total_ms();
-    keep(trail_of(result));
-    return result;
+    if (!tasks.empty()) last_ = queries.back();
+    for (Task& task : tasks) prepare(task);
+    predict(tasks);
+    std::vector<PlanResult> results;
+    for (Task& task : tasks) {
+      if (task.prepared) search(*task.prepared, task.request, planner_.options(), task.result);
+      const PlanTimings& t = task.result.timings;
+      task.result.timings.total = t.prepare + t.encode + t.infer + t.region + t.plan;
+      results.push_back(std::move(task.result));
+    }
+    if (!results.empty()) keep(trail_of(results.back()));
+    return results;
+  }
+
+  PlanResult plan(const Query& query, const CancelToken& cancel) {
+    return plan(std::vector<Query>{query}, cancel).front();
   }
 
   PlanResult replan(const Pose2& start, const CancelToken& cancel) {
@@ -104,6 +110,35 @@ class Session::Memory {
   }
 
  private:
+  /// A query on its way.
+  struct Task {
+    PlanRequest request;
+    std::optional<Prepared> prepared;  ///< nothing when no search is needed
+    PlanResult result;
+  };
+
+  void prepare(Task& task) {
+    if (!space_) space_.emplace(make_free_space(task.request, planner_.predictor().get(), task.result));
+    task.prepared = look(*space_, task.request, planner_.options(), task.result);
+  }
+
+  /// Queries that are guided in pixels of one size are predicted together.
+  void predict(std::vector<Task>& tasks) const {
+    if (!planner_.predictor()) return;
+    std::map<const OccupancyMap*, std::vector<Task*>> together;
+    for (Task& task : tasks) {
+      if (task.prepared) together[task.prepared->guidance.get()].push_back(&task);
+    }
+    for (const auto& [map, those] : together) {
+      std::vector<RegionQuery> queries;
+      for (const Task* task : those) queries.push_back({task->request.start, task->request.goal});
+      std::vector<Prediction> predictions = planner_.predictor()->predict_many(*map, queries);
+      for (std::size_t i = 0; i < those.size(); ++i) {
+        take_region(std::move(predictions[i]), *those[i]->prepared, those[i]->request, those[i]->result);
+      }
+    }
+  }
+
   PlanRequest request_for(const Query& query, const CancelToken& cancel) const {
     PlanRequest request = robot_;
     request.start = query.start;
@@ -245,6 +280,10 @@ const OccupancyMap& Session::map() const {
 
 PlanResult Session::plan(const Query& query, const CancelToken& cancel) {
   return memory_->plan(query, cancel);
+}
+
+std::vector<PlanResult> Session::plan(const std::vector<Query>& queries, const CancelToken& cancel) {
+  return memory_->plan(queries, cancel);
 }
 
 PlanResult Session::replan(const Eigen::Vector2d& start, double heading, const CancelToken& cancel) {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <vector>
 
 #include "lrrt/planner.hpp"
 
@@ -30,11 +31,18 @@ class Session {
   Session(Session&&) noexcept;
   Session& operator=(Session&&) noexcept;
 
+  /// The map as it is now.
   const OccupancyMap& map() const;
 
   /// Plans as Planner::plan() does, with the same result.
   /// @throws RequestError,ModelError as Planner::plan().
   PlanResult plan(const Query& query, const CancelToken& cancel = {});
+
+  /// Plans many queries; their regions are predicted together, see RegionPredictor::predict_many. The results are those
+  /// of plan(), in the order of the queries, and the last one is what replan() goes on from. The time of preparing
+  /// together is the first result's.
+  /// @throws RequestError,ModelError as plan(): then there is no result.
+  std::vector<PlanResult> plan(const std::vector<Query>& queries, const CancelToken& cancel = {});
 
   /// Plans from where the robot is now to the goal of the last query, along the path of the last result as far as it is
   /// still free: ways to that path, and around what stands on it since, are planned near by, unguided, by RRT-Connect

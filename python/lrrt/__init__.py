@@ -36,6 +36,7 @@ from lrrt._core import (
 from lrrt.drawing import draw
 from lrrt.maps import read_map
 from lrrt.planning import default_predictor, plan
+from lrrt.session import Session
 
 __version__ = _version("lrrt")
 
@@ -57,6 +58,7 @@ __all__ = [
     "RegionPredictor",
     "RequestError",
     "Scenario",
+    "Session",
     "__version__",
     "default_predictor",
     "draw",

@@ -32,6 +32,11 @@ def default_predictor() -> OnnxPredictor:
         return _default
 
 
+def as_point(point: Point) -> npt.NDArray[np.float64]:
+    """(x, y) as the extension module takes it."""
+    return np.asarray(point, dtype=np.float64)
+
+
 def plan(
     map: OccupancyMap,
     start: Point,
@@ -107,14 +112,10 @@ def plan(
     """
     if predictor is None and strategy != "uniform":
         predictor = default_predictor()
-    return _core.plan(
-        map,
-        np.asarray(start, dtype=np.float64),
-        np.asarray(goal, dtype=np.float64),
+    settings = _core.Settings(
         planner=planner,
         strategy=strategy,
         alpha=alpha,
-        predictor=predictor,
         stop=stop,
         cost_factor=cost_factor,
         time_limit=time_limit,
@@ -127,11 +128,9 @@ def plan(
         seed=seed,
         keep_tree=keep_tree,
         neighbors=neighbors,
-        cancel=cancel,
-        outline=None if outline is None else [np.asarray(corner, dtype=np.float64) for corner in outline],
+        outline=None if outline is None else [as_point(corner) for corner in outline],
         motion=motion,
         turning_radius=turning_radius,
-        start_heading=start_heading,
-        goal_heading=goal_heading,
         simplify=simplify,
     )
+    return _core.plan(settings, predictor, map, as_point(start), as_point(goal), start_heading, goal_heading, cancel)

@@ -7,22 +7,25 @@
 #include "lrrt/error.hpp"
 #include "lrrt/ompl/planners.hpp"
 #include "lrrt/planner.hpp"
+#include "lrrt/session.hpp"
 
 namespace lrrt::python {
 namespace {
 
-/// Plans in a second thread while this one looks for Python's signals, so that Ctrl-C ends a long search at once.
-PlanResult plan_interruptibly(const Planner& planner, PlanRequest request) {
+/// Runs a search in a second thread while this one looks for Python's signals, so that Ctrl-C ends a long search at
+/// once.
+template <typename Search>
+auto interruptibly(CancelToken cancel, Search&& search) {
   using std::chrono_literals::operator""ms;
-  std::future<PlanResult> future;
+  std::future<decltype(search(cancel))> future;
   const auto ready = [&] {
     const py::gil_scoped_release release;
     return future.wait_for(20ms) == std::future_status::ready;
   };
-  future = std::async(std::launch::async, [&] { return planner.plan(request); });
+  future = std::async(std::launch::async, [&] { return search(cancel); });
   while (!ready()) {
     if (PyErr_CheckSignals() == 0) continue;
-    request.cancel.cancel();
+    cancel.cancel();
     {
       const py::gil_scoped_release release;
       future.wait();
@@ -38,15 +41,35 @@ UnknownIs unknown_from(const std::string& word) {
   throw RequestError("unknown='" + word + "': expected 'occupied' or 'free'");
 }
 
-PlanResult plan(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
-                const std::string& planner, const std::string& strategy, double alpha,
-                const std::optional<std::shared_ptr<RegionPredictor>>& predictor, const std::string& stop,
-                double cost_factor, double time_limit, std::optional<std::size_t> iteration_limit, double range,
-                double goal_bias, double goal_tolerance, double radius, const std::string& unknown, std::uint64_t seed,
-                bool keep_tree, const std::string& neighbors, const std::optional<CancelToken>& cancel,
-                const std::optional<std::vector<Eigen::Vector2d>>& outline, const std::string& motion,
-                double turning_radius, double start_heading, double goal_heading, bool simplify) {
+using Predictor = std::optional<std::shared_ptr<RegionPredictor>>;
+using Cancel = std::optional<CancelToken>;
+
+/// How to plan, and for what robot: everything that plan() and Session take by name.
+struct Settings {
   PlanOptions options;
+  double radius = 0.0;
+  UnknownIs unknown = UnknownIs::occupied;
+  std::optional<Polygon> outline;
+  Motion motion = Motion::plane;
+  double turning_radius = 0.0;
+
+  PlanRequest robot_on(const OccupancyMap& map) const {
+    PlanRequest request{map, map.center({0, 0}), map.center({0, 0}), radius, unknown};
+    request.outline = outline;
+    request.motion = motion;
+    request.turning_radius = turning_radius;
+    return request;
+  }
+};
+
+Settings settings(const std::string& planner, const std::string& strategy, double alpha, const std::string& stop,
+                  double cost_factor, double time_limit, std::optional<std::size_t> iteration_limit, double range,
+                  double goal_bias, double goal_tolerance, double radius, const std::string& unknown,
+                  std::uint64_t seed, bool keep_tree, const std::string& neighbors,
+                  const std::optional<std::vector<Eigen::Vector2d>>& outline, const std::string& motion,
+                  double turning_radius, bool simplify) {
+  Settings result;
+  PlanOptions& options = result.options;
   options.planner = planner;
   options.strategy = strategy_from_string(strategy);
   options.alpha = alpha;
@@ -61,14 +84,27 @@ PlanResult plan(const OccupancyMap& map, const Eigen::Vector2d& start, const Eig
   options.keep_tree = keep_tree;
   options.neighbors = neighbors_from_string(neighbors);
   options.simplify = simplify;
-  PlanRequest request{map, start, goal, radius, unknown_from(unknown)};
-  if (cancel) request.cancel = *cancel;
-  if (outline) request.outline.emplace(*outline);
-  request.motion = motion_from_string(motion);
-  request.turning_radius = turning_radius;
+  result.radius = radius;
+  result.unknown = unknown_from(unknown);
+  if (outline) result.outline.emplace(*outline);
+  result.motion = motion_from_string(motion);
+  result.turning_radius = turning_radius;
+  return result;
+}
+
+PlanResult plan(const Settings& settings, const Predictor& predictor, const OccupancyMap& map,
+                const Eigen::Vector2d& start, const Eigen::Vector2d& goal, double start_heading, double goal_heading,
+                const Cancel& cancel) {
+  PlanRequest request = settings.robot_on(map);
+  request.start = start;
+  request.goal = goal;
   request.start_heading = start_heading;
   request.goal_heading = goal_heading;
-  return plan_interruptibly(Planner(predictor.value_or(nullptr), options), request);
+  const Planner planner(predictor.value_or(nullptr), settings.options);
+  return interruptibly(cancel.value_or(CancelToken()), [&](const CancelToken& token) {
+    request.cancel = token;
+    return planner.plan(request);
+  });
 }
 
 py::array_t<double> points_array(const std::vector<Eigen::Vector2d>& points) {
@@ -140,6 +176,8 @@ void bind_result(py::module_& module) {
       .def_property_readonly(
           "region", [](const PlanResult& r) { return std::const_pointer_cast<PromisingRegion>(r.region); },
           "The promising region that was used, or None.")
+      .def_readonly("reused", &PlanResult::reused,
+                    "Share of the path's cost that Session.replan() took over from the path before; else 0.")
       .def_property_readonly(
           "timings", [](const PlanResult& r) { return timings_dict(r.timings); },
           "Milliseconds of each stage: prepare, encode, infer, region, plan, total.")
@@ -147,6 +185,53 @@ void bind_result(py::module_& module) {
         return std::string("PlanResult(") + to_string(r.status) + ", cost=" + std::to_string(r.cost) +
                ", iterations=" + std::to_string(r.iterations) + ", nodes=" + std::to_string(r.nodes) + ")";
       });
+}
+
+void bind_settings(py::module_& module) {
+  const PlanOptions defaults;
+  py::class_<Settings>(module, "Settings", "How to plan, and for what robot. See lrrt.plan.")
+      .def(py::init(&settings), py::kw_only(), py::arg("planner") = defaults.planner, py::arg("strategy") = "frontier",
+           py::arg("alpha") = defaults.alpha, py::arg("stop") = "first", py::arg("cost_factor") = defaults.cost_factor,
+           py::arg("time_limit") = defaults.time_limit, py::arg("iteration_limit") = py::none(),
+           py::arg("range") = defaults.range, py::arg("goal_bias") = defaults.goal_bias,
+           py::arg("goal_tolerance") = defaults.goal_tolerance, py::arg("radius") = 0.0,
+           py::arg("unknown") = "occupied", py::arg("seed") = defaults.seed, py::arg("keep_tree") = false,
+           py::arg("neighbors") = "grid", py::arg("outline") = py::none(), py::arg("motion") = "plane",
+           py::arg("turning_radius") = 0.0, py::arg("simplify") = false);
+}
+
+void bind_session(py::module_& module) {
+  py::class_<Session>(module, "Session", "Many queries on one map. See lrrt.Session.")
+      .def(py::init([](const Settings& settings, const Predictor& predictor, const OccupancyMap& map) {
+             return Session(Planner(predictor.value_or(nullptr), settings.options), settings.robot_on(map));
+           }),
+           py::arg("settings"), py::arg("predictor"), py::arg("map"))
+      .def_property_readonly("map", &Session::map, py::return_value_policy::copy, "The map as it is now; a copy.")
+      .def(
+          "plan",
+          [](Session& session, const std::vector<Query>& queries, const Cancel& cancel) {
+            return interruptibly(cancel.value_or(CancelToken()),
+                                 [&](const CancelToken& token) { return session.plan(queries, token); });
+          },
+          py::arg("queries"), py::arg("cancel"))
+      .def(
+          "replan",
+          [](Session& session, const Eigen::Vector2d& start, double heading, const Cancel& cancel) {
+            return interruptibly(cancel.value_or(CancelToken()),
+                                 [&](const CancelToken& token) { return session.replan(start, heading, token); });
+          },
+          py::arg("start"), py::arg("heading"), py::arg("cancel"))
+      .def("update", &Session::update, py::arg("part"), py::call_guard<py::gil_scoped_release>());
+  py::class_<Query>(module, "Query", "Where a robot is and where it shall go.")
+      .def(py::init([](const Eigen::Vector2d& start, const Eigen::Vector2d& goal, double start_heading,
+                       double goal_heading) {
+             return Query{start, goal, start_heading, goal_heading};
+           }),
+           py::arg("start"), py::arg("goal"), py::arg("start_heading") = 0.0, py::arg("goal_heading") = 0.0)
+      .def_readonly("start", &Query::start, "(x, y), map units.")
+      .def_readonly("goal", &Query::goal, "(x, y), map units.")
+      .def_readonly("start_heading", &Query::start_heading, "Radians.")
+      .def_readonly("goal_heading", &Query::goal_heading, "Radians.");
 }
 
 }  // namespace
@@ -159,18 +244,11 @@ void bind_planner(py::module_& module) {
       .def_property_readonly("cancelled", &CancelToken::cancelled, "True once cancel() was called.");
   bind_result(module);
   module.def("planner_names", &planner_names, "Names that plan() accepts as `planner`.");
-  const PlanOptions defaults;
-  module.def("plan", &plan, py::arg("map"), py::arg("start"), py::arg("goal"), py::kw_only(),
-             py::arg("planner") = defaults.planner, py::arg("strategy") = "frontier", py::arg("alpha") = defaults.alpha,
-             py::arg("predictor") = py::none(), py::arg("stop") = "first",
-             py::arg("cost_factor") = defaults.cost_factor, py::arg("time_limit") = defaults.time_limit,
-             py::arg("iteration_limit") = py::none(), py::arg("range") = defaults.range,
-             py::arg("goal_bias") = defaults.goal_bias, py::arg("goal_tolerance") = defaults.goal_tolerance,
-             py::arg("radius") = 0.0, py::arg("unknown") = "occupied", py::arg("seed") = defaults.seed,
-             py::arg("keep_tree") = false, py::arg("neighbors") = "grid", py::arg("cancel") = py::none(),
-             py::arg("outline") = py::none(), py::arg("motion") = "plane", py::arg("turning_radius") = 0.0,
-             py::arg("start_heading") = 0.0, py::arg("goal_heading") = 0.0, py::arg("simplify") = false,
-             "Plans a path. See lrrt.plan, which adds the default predictor.");
+  bind_settings(module);
+  module.def("plan", &plan, py::arg("settings"), py::arg("predictor"), py::arg("map"), py::arg("start"),
+             py::arg("goal"), py::arg("start_heading"), py::arg("goal_heading"), py::arg("cancel"),
+             "Plans a path. See lrrt.plan.");
+  bind_session(module);
 }
 
 }  // namespace lrrt::python

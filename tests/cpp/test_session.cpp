@@ -120,6 +120,28 @@ TEST_P(EveryMotion, ASessionPlansAsThePlannerDoes) {
   }
 }
 
+TEST_P(EveryMotion, ManyQueriesGiveWhatTheyGiveOneByOne) {
+  Random random(73);
+  const OccupancyMap map = random_ground(random, true);
+  const PlanRequest robot = robot_on(map, GetParam());
+  Session session(planner_for(Strategy::frontier, GetParam()), robot);
+  std::vector<Query> queries;
+  for (int i = 0; i < 6; ++i) {
+    queries.push_back(query_of(random_pose(robot, map, random), random_pose(robot, map, random)));
+  }
+  queries[2].goal = map.to_world({-5.0, 3.0});
+  const std::vector<PlanResult> together = session.plan(queries);
+  ASSERT_EQ(together.size(), queries.size());
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const PlanResult alone = session.plan(queries[i]);
+    EXPECT_EQ(together[i].status, alone.status);
+    EXPECT_EQ(together[i].path, alone.path);
+    EXPECT_EQ(together[i].iterations, alone.iterations);
+  }
+  EXPECT_EQ(together[2].status, PlanStatus::goal_outside);
+  EXPECT_TRUE(session.plan(std::vector<Query>{}).empty());
+}
+
 /// A drive: the robot follows its path by fits and starts, blocks appear and vanish, some of them on the path.
 TEST_P(EveryMotion, ReplanningIsHonestWhileTheMapChanges) {
   Random random(72);
