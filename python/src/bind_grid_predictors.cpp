@@ -2,6 +2,7 @@
 #include "bindings.hpp"
 #include "lrrt/error.hpp"
 #include "lrrt/predict/grid_predictors.hpp"
+#include "lrrt/predict/refined_predictor.hpp"
 
 namespace lrrt::python {
 
@@ -22,6 +23,14 @@ void bind_grid_predictors(py::module_& module) {
       module, "PotentialFieldPredictor", "The way that an artificial potential field goes; for comparison.")
       .def(py::init<double, double>(), py::arg("radius") = 5.0, py::arg("reach") = 8.0,
            "`radius`: half the width of the region; `reach`: distance up to which obstacles push; both in pixels.");
+  py::class_<RefinedPredictor, RegionPredictor, std::shared_ptr<RefinedPredictor>>(
+      module, "RefinedPredictor", "Predicts twice: the whole map, then the parts of it along the way that shows.")
+      .def(py::init([](std::shared_ptr<RegionPredictor> predictor, int window, int most_windows) {
+             return std::make_shared<RefinedPredictor>(std::move(predictor), RefineOptions{window, most_windows});
+           }),
+           py::arg("predictor"), py::arg("window") = RefineOptions{}.window,
+           py::arg("most_windows") = RefineOptions{}.most_windows,
+           "`window`: side of the parts, pixels; where more than `most_windows` are needed the region stays as it is.");
 }
 
 }  // namespace lrrt::python

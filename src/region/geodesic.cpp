@@ -25,6 +25,19 @@ Geodesic::Geodesic(const std::vector<std::uint8_t>& mask, int width, int height,
   if (on_picture && distance_[place(source)] == waiting) spread(source);
 }
 
+Pixel Geodesic::step_towards_source(Pixel from) const {
+  const std::int32_t here = at(from);
+  if (here == unreached) return from;
+  for (int k = 0; k < 9; ++k) {
+    const Pixel to{from.c + k % 3 - 1, from.r + k / 3 - 1};
+    const std::int32_t cost = k % 2 == 0 ? diagonal : straight;
+    if (k == 4 || at(to) == unreached || at(to) + cost != here) continue;
+    const bool corner = k % 2 == 0 && (at({to.c, from.r}) == unreached || at({from.c, to.r}) == unreached);
+    if (!corner) return to;
+  }
+  return from;
+}
+
 void Geodesic::spread(Pixel source) {
   std::array<std::vector<std::uint32_t>, bucket_count> buckets;
   std::size_t open = 0;

@@ -41,17 +41,6 @@ constexpr double tau = 6.283185307179586;
 constexpr double least_look = 4.0;
 constexpr double most_look = 12.0;
 
-/// The next pixel on a shortest way to the source of the distances; the pixel itself at the source.
-Pixel step_towards_source(const Geodesic& distances, Pixel from) {
-  const std::int32_t here = distances.at(from);
-  for (int k = 0; k < 9; ++k) {
-    const Pixel to{from.c + k % 3 - 1, from.r + k / 3 - 1};
-    const std::int32_t cost = k % 2 == 0 ? Geodesic::diagonal : Geodesic::straight;
-    if (k != 4 && distances.at(to) != Geodesic::unreached && distances.at(to) + cost == here) return to;
-  }
-  return from;
-}
-
 }  // namespace
 
 FrontierStrategy::Front FrontierStrategy::make_front(const Geodesic& to_other, const Geodesic& from_own, Pixel root,
@@ -170,7 +159,7 @@ std::optional<Eigen::Vector2d> FrontierStrategy::direction(const Eigen::Vector2d
   if (to_goal.at(at) == Geodesic::unreached) return std::nullopt;
   const auto steps = static_cast<int>(std::ceil(std::clamp(step_, least_look, most_look)));
   for (int i = 0; i < steps; ++i) {
-    const Pixel next = step_towards_source(to_goal, at);
+    const Pixel next = to_goal.step_towards_source(at);
     if (next == at) break;
     at = next;
   }

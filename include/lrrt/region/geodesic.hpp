@@ -31,6 +31,8 @@ class Geodesic {
     const std::int32_t distance = distance_[place(p)];
     return distance == waiting ? unreached : distance;
   }
+  /// The next pixel on a shortest way to the source; the pixel itself at the source and where no way leads.
+  Pixel step_towards_source(Pixel from) const;
   /// The pixels that were reached, nearest first.
   const std::vector<Pixel>& reached() const { return reached_; }
 
