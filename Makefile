@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The everyday commands. Each does the set-up that it needs, skips what is up to date, and can be interrupted and
 # run again. Variables: PRESET (release, debug, asan, ci), JOBS, PYTHON, ONNXRUNTIME_ROOT, CONFIG, MODEL, SUITE,
-# BENCH_OPTIONS.
+# BENCH_OPTIONS, LOCKED (no: Python tools as requirements-dev.txt allows, not as locked).
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 SHELL := /bin/bash
@@ -84,6 +84,24 @@ format: setup ## Format C++ and Python sources in place
 docs: install-python ## Build the documentation's site: build/docs/html/index.html
 	@scripts/setup_apt.sh doxygen
 	@scripts/docs.sh
+
+.PHONY: package
+package: setup ## Make lrrt and lrrt-dev as .deb files, and an archive with both, in dist/
+	@scripts/setup_apt.sh file
+	@scripts/make_packages.sh
+
+.PHONY: wheel
+wheel: setup ## Make a wheel that needs nothing of the system, and the source archive, in dist/
+	@scripts/make_wheel.sh
+
+.PHONY: package-check
+package-check: setup ## Make every package and use each away from this tree (minutes): PARTS="debs wheel sdist"
+	@scripts/setup_apt.sh file
+	@scripts/check_packages.sh $(PARTS)
+
+.PHONY: lock
+lock: setup ## Write the lock files of the Python requirements anew: LOCK_UPGRADE=yes takes the newest versions
+	@scripts/lock.sh
 
 .PHONY: clean
 clean: ## Remove what was built; .venv and .deps stay

@@ -48,8 +48,16 @@ bool is_yaml(const fs::path& path) {
   return path.extension() == ".yaml" || path.extension() == ".yml";
 }
 
+/// Where the suites that ship lie: where the program is installed, else in the source tree.
+fs::path suites_folder() {
+  std::error_code ignored;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+  const fs::path installed = (program.parent_path() / LRRT_SUITES_FROM_PROGRAM).lexically_normal();
+  return fs::is_directory(installed, ignored) ? installed : fs::path(LRRT_BENCH_SUITES);
+}
+
 fs::path find_suite(const std::string& name) {
-  const fs::path path = is_yaml(name) ? fs::path(name) : fs::path(LRRT_BENCH_SUITES) / (name + ".yaml");
+  const fs::path path = is_yaml(name) ? fs::path(name) : suites_folder() / (name + ".yaml");
   std::error_code ignored;
   if (fs::is_regular_file(path, ignored)) return path;
   std::string known;
@@ -85,7 +93,7 @@ Suite load_suite(const std::string& name) {
 std::vector<std::string> shipped_suites() {
   std::vector<std::string> names;
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(LRRT_BENCH_SUITES, ignored)) {
+  for (const auto& entry : fs::directory_iterator(suites_folder(), ignored)) {
     if (is_yaml(entry.path())) names.push_back(entry.path().stem().string());
   }
   std::sort(names.begin(), names.end());

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Defines LrrtOnnxRuntime::headers. The library itself is opened at run time, never linked, so only its
-# path matters: LrrtOnnxRuntime_LIBRARY (may be empty).
+# path matters: LrrtOnnxRuntime_LIBRARY (may be empty). LrrtOnnxRuntime_IS_OURS: it is the one in .deps.
 #
 # Looked for in this order: ONNXRUNTIME_ROOT (variable or environment), find_package(onnxruntime CONFIG),
 # .deps/onnxruntime (scripts/setup_onnxruntime.sh puts it there), the default paths.
@@ -33,7 +33,9 @@ else()
   _lrrt_look_in(PATHS "${_lrrt_bundle}" NO_DEFAULT_PATH)
   _lrrt_look_in()
   if(NOT LrrtOnnxRuntime_INCLUDE_DIR AND LRRT_FETCH_ONNXRUNTIME)
-    execute_process(COMMAND "${PROJECT_SOURCE_DIR}/scripts/setup_onnxruntime.sh")
+    # under pip the build's own Python has pip, which downloads; the system's may have none
+    execute_process(COMMAND "${CMAKE_COMMAND}" -E env "PYTHON=${Python_EXECUTABLE}"
+      "${PROJECT_SOURCE_DIR}/scripts/setup_onnxruntime.sh")
     _lrrt_look_in(PATHS "${_lrrt_bundle}" NO_DEFAULT_PATH)
   endif()
 endif()
@@ -46,6 +48,11 @@ find_package_handle_standard_args(LrrtOnnxRuntime
 if(NOT LrrtOnnxRuntime_LIBRARY)
   set(LrrtOnnxRuntime_LIBRARY "")
 endif()
+string(FIND "${LrrtOnnxRuntime_LIBRARY}" "${_lrrt_bundle}/" _lrrt_position)
+set(LrrtOnnxRuntime_IS_OURS OFF)
+if(_lrrt_position EQUAL 0)
+  set(LrrtOnnxRuntime_IS_OURS ON)
+endif()
 
 if(LrrtOnnxRuntime_FOUND AND NOT TARGET LrrtOnnxRuntime::headers)
   add_library(LrrtOnnxRuntime::headers INTERFACE IMPORTED)
@@ -57,8 +64,7 @@ endif()
 # one in .deps. One that the user installed stays where it is.
 function(lrrt_install_onnxruntime folder licenses)
   set(bundle "${PROJECT_SOURCE_DIR}/.deps/onnxruntime")
-  string(FIND "${LrrtOnnxRuntime_LIBRARY}" "${bundle}/" position)
-  if(position EQUAL 0)
+  if(LrrtOnnxRuntime_IS_OURS)
     file(REAL_PATH "${LrrtOnnxRuntime_LIBRARY}" file)
     install(FILES "${file}" DESTINATION "${folder}" RENAME libonnxruntime.so.1 ${ARGN})
     install(FILES "${bundle}/LICENSE" DESTINATION "${licenses}" RENAME onnxruntime-LICENSE ${ARGN})

@@ -7,6 +7,9 @@ deps="$root/.deps"
 venv="$root/.venv"
 stamps="$deps/stamps"
 
+# The version, which CMakeLists.txt states.
+version="$(sed -n 's/^project(lrrt VERSION \([0-9.]*\).*/\1/p' "$root/CMakeLists.txt")"
+
 say() { printf '==> %s\n' "$*"; }
 
 die() {
@@ -54,10 +57,15 @@ PY
   return 1
 }
 
+# True unless LOCKED=no: the versions of the lock files (scripts/lock.sh writes them) are installed.
+is_locked() { [ "${LOCKED:-yes}" != no ]; }
+
 # pip install into .venv, with advice when it fails.
 pip_install() {
   "$venv/bin/python" -m pip install --quiet --disable-pip-version-check --retries 5 "$@" ||
     die "pip install failed: $*" \
       "Is the network up? Behind a proxy set https_proxy; for a mirror set PIP_INDEX_URL." \
+      "Where a checksum or a version of a lock file cannot be met (another Python, a mirror's own builds): LOCKED=no" \
+      "installs what the ranges allow." \
       "Wheels that were downloaded stay in pip's cache; run the command again to go on."
 }

@@ -54,9 +54,18 @@ download_deb() {
   return 1
 }
 
+# Prints a Python that has pip: PYTHON (CMake names its own), else the one in .venv, else the system's.
+python_with_pip() {
+  local python
+  for python in "${PYTHON:-}" "$venv/bin/python" python3; do
+    if [ -n "$python" ] && "$python" -m pip --version >/dev/null 2>&1; then printf '%s\n' "$python"; return; fi
+  done
+  echo "no Python with pip was found: install python3-pip, or name one with PYTHON" >>"$log"
+  return 1
+}
+
 download_wheel() {
-  local python="$venv/bin/python" folder
-  [ -x "$python" ] || python=python3
+  local folder
   folder="$(mktemp -d -p "$cache")"
   "$python" -m pip download --quiet --no-deps --only-binary=:all: --implementation cp --python-version 3.11 --abi cp311 \
     --platform "manylinux_2_28_$arch" --dest "$folder" "onnxruntime==$wheel_version" || { rm -rf "$folder"; return 1; }
@@ -93,8 +102,8 @@ headers_from_npm() {
 }
 
 library_from_wheel() {
-  local python="$venv/bin/python"
-  [ -x "$python" ] || python=python3
+  local python
+  python="$(python_with_pip)" || return 1
   say "ONNX Runtime library $wheel_version: from its Python wheel (24 MB)"
   fetch_checked "$cache/library.whl" "$wheel_sha256" download_wheel || return 1
   "$python" -m zipfile -e "$cache/library.whl" "$new/wheel"

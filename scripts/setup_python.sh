@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Makes the virtual environment .venv with the tools of requirements-dev.txt.
+# Makes the virtual environment .venv with the tools of requirements-dev.lock: every file that pip takes must have one of
+# the checksums there. LOCKED=no takes what requirements-dev.txt allows instead.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
 . "$(dirname "$0")/common.sh"
@@ -16,9 +17,11 @@ if [ ! -x "$venv/bin/python" ] || ! is_current venv "$want"; then
   mark_current venv "$want"
 fi
 
-want="$(fingerprint "$root/requirements-dev.txt")"
+tools=(--require-hashes -r "$root/requirements-dev.lock")
+is_locked || tools=(--upgrade -r "$root/requirements-dev.txt")
+want="$(fingerprint "${tools[*]}" "${tools[-1]}")"
 if ! is_current python "$want"; then
-  say "Installing the Python tools of requirements-dev.txt"
-  pip_install --upgrade pip -r "$root/requirements-dev.txt"
+  say "Installing the Python tools of $(basename "${tools[-1]}")"
+  pip_install "${tools[@]}"
   mark_current python "$want"
 fi

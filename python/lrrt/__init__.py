@@ -7,8 +7,6 @@
 >>> lrrt.draw(m, result=result).figure.savefig("path.png")  # doctest: +SKIP
 """
 
-from importlib.metadata import version as _version
-
 from lrrt import _core
 from lrrt._core import (
     AStarPredictor,
@@ -29,6 +27,7 @@ from lrrt._core import (
     RegionPredictor,
     RequestError,
     Scenario,
+    __version__,
     planner_names,
     read_scenarios,
     shortest_path,
@@ -38,8 +37,6 @@ from lrrt.drawing import draw
 from lrrt.maps import read_map
 from lrrt.planning import default_predictor, plan
 from lrrt.session import Session
-
-__version__ = _version("lrrt")
 
 __all__ = [
     "AStarPredictor",

@@ -16,7 +16,7 @@ from rich.console import Console
 from rich.progress import MofNCompleteColumn, Progress
 from rich.table import Table
 
-from lrrt._core import Error, OccupancyMap, OnnxPredictor, PlanResult, planner_names
+from lrrt._core import Error, OccupancyMap, OnnxPredictor, PlanResult, __version__, planner_names
 from lrrt.drawing import draw
 from lrrt.maps import read_map
 from lrrt.planning import default_predictor, plan
@@ -55,6 +55,22 @@ app = typer.Typer(
     "map_server maps.\n\n"
     "Exit codes: 0 done, 2 bad input, 3 no path.",
 )
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"lrrt {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version and exit.")
+    ] = False,
+) -> None:  # what stands before the command's name
+    pass
+
 
 MapPath = Annotated[Path, typer.Argument(metavar="MAP", help="Picture, map_server .yaml or MovingAI .map.")]
 Start = Annotated[tuple[float, float], typer.Option(metavar="X Y", help="Where the path begins.")]

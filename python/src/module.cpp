@@ -4,6 +4,7 @@
 
 #include "bindings.hpp"
 #include "lrrt/error.hpp"
+#include "lrrt/version.hpp"
 
 namespace {
 
@@ -43,6 +44,7 @@ py::handle documented(py::module_& module, const char* name, const py::handle& b
 
 PYBIND11_MODULE(_core, module) {
   module.doc() = "Compiled core of lrrt: maps, promising regions and guided planners.";
+  module.attr("__version__") = lrrt::version;
 
   const py::handle error = documented<lrrt::Error>(
       module, "Error", PyExc_ValueError,

@@ -131,9 +131,9 @@ ModelInfo read_model_info(const std::filesystem::path& path, const MetadataLooku
 
 std::filesystem::path default_model_path() {
   if (const char* chosen = std::getenv("LRRT_MODEL"); chosen != nullptr && *chosen != '\0') return chosen;
-  const std::filesystem::path here = own_path().parent_path();
-  std::vector<std::filesystem::path> places = {here / "models" / "default.onnx",
-                                               here / ".." / "share" / "lrrt" / "models" / "default.onnx"};
+  // in the wheel; from liblrrt.so; from a program in bin
+  std::vector<std::filesystem::path> places =
+      around_own_path({"", LRRT_DATA_FROM_LIBRARY, LRRT_DATA_FROM_PROGRAM}, "models/default.onnx");
 #ifdef LRRT_DEFAULT_MODEL
   places.emplace_back(LRRT_DEFAULT_MODEL);
 #endif

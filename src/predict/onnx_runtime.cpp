@@ -4,7 +4,6 @@
 #include <dlfcn.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <vector>
 
 #include "lrrt/error.hpp"
@@ -19,7 +18,9 @@ constexpr std::uint32_t oldest_api = 21;
 std::vector<std::string> candidates() {
   std::vector<std::string> places;
   if (const char* chosen = std::getenv("LRRT_ONNXRUNTIME"); chosen != nullptr && *chosen != '\0') return {chosen};
-  places.push_back((own_path().parent_path() / "libonnxruntime.so.1").string());
+  // in the wheel; from liblrrt.so; from a program in bin
+  for (const auto& place : around_own_path({"", "lrrt", LRRT_RUNTIME_FROM_PROGRAM}, "libonnxruntime.so.1"))
+    places.push_back(place.string());
 #ifdef LRRT_DEFAULT_ONNXRUNTIME
   places.emplace_back(LRRT_DEFAULT_ONNXRUNTIME);
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// consumer MAP MODEL: plans through a map that lrrt::io reads, guided by a model, with the installed library alone.
+// consumer MAP PREFIX: plans through a map that lrrt::io reads, guided by the model that was installed in PREFIX.
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
@@ -38,13 +38,15 @@ std::pair<Eigen::Vector2d, Eigen::Vector2d> far_apart(const lrrt::OccupancyMap& 
 }  // namespace
 
 int main(int argc, char** argv) {
-  require(argc == 3, "usage: consumer MAP MODEL");
+  require(argc == 3, "usage: consumer MAP PREFIX");
   require(std::string(lrrt::version) == LRRT_EXPECTED_VERSION, "header and package agree on the version");
+  const std::string model = lrrt::default_model_path().string();
+  require(model.rfind(argv[2], 0) == 0, "the default model lies in the prefix, not at " + model);
   lrrt::silence_ompl();
 
   const lrrt::OccupancyMap map = lrrt::read_map(argv[1]);
   const auto [start, goal] = far_apart(map);
-  const lrrt::Planner planner(std::make_shared<lrrt::OnnxPredictor>(argv[2]));
+  const lrrt::Planner planner(std::make_shared<lrrt::OnnxPredictor>());
   const lrrt::PlanResult result = planner.plan({map, start, goal});
 
   require(result.solved(), std::string("a path is found, not ") + lrrt::to_string(result.status));
