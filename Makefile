@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The everyday commands. Each does the set-up that it needs, skips what is up to date, and can be interrupted and
 # run again. Variables: PRESET (release, debug, asan, ci), JOBS, PYTHON, ONNXRUNTIME_ROOT, CONFIG, MODEL, SUITE,
-# BENCH_OPTIONS, LOCKED (no: Python tools as requirements-dev.txt allows, not as locked).
+# BENCH_OPTIONS, SECONDS, FUZZ, LOCKED (no: Python tools as requirements-dev.txt allows, not as locked).
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 SHELL := /bin/bash
@@ -10,6 +10,8 @@ PRESET ?= release
 CONFIG ?= training/configs/fast.yaml
 MODEL ?= models/default.onnx
 SUITE ?= smoke
+SECONDS ?= 60
+FUZZ ?=
 BENCH_OPTIONS ?=
 JOBS ?= $(shell nproc)
 export JOBS
@@ -75,6 +77,10 @@ lint: install-python ## Check formatting, style and types
 tidy: build ## Run clang-tidy on the library (minutes)
 	@scripts/setup_apt.sh clang-tidy
 	@scripts/lint.sh tidy $(PRESET)
+
+.PHONY: fuzz
+fuzz: setup ## Fuzz every reader and the planner with Clang's libFuzzer: SECONDS=60 for each, FUZZ="suite plan" for some
+	@scripts/fuzz.sh $(SECONDS) $(FUZZ)
 
 .PHONY: format
 format: setup ## Format C++ and Python sources in place

@@ -38,7 +38,7 @@ struct PlanJob {
   std::shared_ptr<const Problem> problem;
   std::shared_ptr<Optimum> optimum;
   std::shared_ptr<const RegionPredictor> predictor;  ///< null for unguided rows
-  PlanSuite suite;
+  std::shared_ptr<const PlanSuite> suite;
   PlanRow row;
   CancelToken cancel;
   bool limited_by_id = false;
@@ -68,7 +68,7 @@ void add_path(Json& json, const PlanResult& result, const PlanJob& job, double o
   json["first_length"] = first.cost;
   json["length"] = result.cost;
   json["optimum"] = number_or_null(optimum);
-  const Clearance clearance = clearance_of(planning_map(*job.problem->map, job.suite), result.path);
+  const Clearance clearance = clearance_of(planning_map(*job.problem->map, *job.suite), result.path);
   json["clearance"] = {{"least", clearance.least}, {"mean", clearance.mean}};
   for (const int percent : within_percents) {
     const double target = optimum * (1.0 + percent / 100.0);
@@ -104,13 +104,13 @@ Json run_job(const PlanJob& job) {
   const Problem& p = *job.problem;
   const auto planned = [&] {
     const Planner planner(job.predictor, job.row.options);
-    return planner.plan({*p.map, p.start, p.goal, job.suite.radius, job.suite.unknown, job.cancel});
+    return planner.plan({*p.map, p.start, p.goal, job.suite->radius, job.suite->unknown, job.cancel});
   };
   const bool on_grid = job.row.options.planner == grid_search_name;
-  const PlanResult result = on_grid ? grid_search(p, job.suite) : planned();
+  const PlanResult result = on_grid ? grid_search(p, *job.suite) : planned();
   // Afterwards: the search for the optimum must not warm the planner's caches.
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  return row_json(result, job, result.solved() ? job.optimum->of(p, job.suite) : nan);
+  return row_json(result, job, result.solved() ? job.optimum->of(p, *job.suite) : nan);
 }
 
 /// The models of a suite, each loaded and called once before anything is measured.
@@ -142,7 +142,7 @@ class Predictors {
 
 /// One run of one row on one problem.
 Job job_of(PlanJob job, int run, std::size_t pair, const IterationLimits& limits) {
-  job.row.options.seed = job.suite.seed + static_cast<std::uint64_t>(run);
+  job.row.options.seed = job.suite->seed + static_cast<std::uint64_t>(run);
   const std::string id = job.problem->map_name + " | " + job.problem->query + " | " + job.row.name + " | " +
                          std::to_string(job.row.options.seed);
   const auto limit = limits.find(id);
@@ -155,23 +155,36 @@ Job job_of(PlanJob job, int run, std::size_t pair, const IterationLimits& limits
   return {id, std::move(label), [job = std::move(job)] { return run_job(job); }, pair};
 }
 
+/// Every job is held in memory: a slip of the pen in the suite must not take all of it.
+void check_jobs(std::size_t problems, const PlanSuite& suite) {
+  constexpr std::size_t most = 4'000'000;
+  const std::size_t per_problem = suite.rows.size() * static_cast<std::size_t>(suite.runs);
+  if (problems <= most / per_problem) return;
+  throw SuiteError("the suite asks for " + std::to_string(problems) + " queries × " + std::to_string(per_problem) +
+                   " runs: expected at most " + std::to_string(most) + " in all; lower 'runs' or 'count'");
+}
+
 }  // namespace
 
 Campaign plan_campaign(const Suite& suite, const CancelToken& cancel, const IterationLimits& limits) {
-  const auto& body = std::get<PlanSuite>(suite.body);
+  const auto shared_suite = std::make_shared<const PlanSuite>(std::get<PlanSuite>(suite.body));
+  const PlanSuite& body = *shared_suite;
   Campaign campaign;
   Predictors predictors(suite, campaign);
   std::vector<std::shared_ptr<const RegionPredictor>> by_row;
   for (const PlanRow& row : body.rows) by_row.push_back(predictors.of(row));
   std::size_t pair = 0;
-  for (const Problem& problem : make_problems(suite)) {
+  const std::vector<Problem> problems = make_problems(suite);
+  check_jobs(problems.size(), body);
+  for (const Problem& problem : problems) {
     const auto shared = std::make_shared<const Problem>(problem);
     const auto optimum = std::make_shared<Optimum>();
     campaign.inputs["maps"][problem.map_name] = map_checksum(*problem.map);
     // Rows innermost: whatever else the machine does falls on all of them alike.
     for (int run = 0; run < body.runs; ++run, ++pair) {
       for (std::size_t i = 0; i < body.rows.size(); ++i) {
-        campaign.jobs.push_back(job_of({shared, optimum, by_row[i], body, body.rows[i], cancel}, run, pair, limits));
+        campaign.jobs.push_back(
+            job_of({shared, optimum, by_row[i], shared_suite, body.rows[i], cancel}, run, pair, limits));
       }
     }
   }

@@ -13,13 +13,13 @@ namespace {
 
 constexpr double endless = std::numeric_limits<double>::max();
 constexpr NumberRule any_number{-endless, endless, "a number"};
-constexpr NumberRule counts{1, 1e9, "a whole number from 1 on"};
+constexpr NumberRule counts{1, 1e6, "a whole number from 1 to 1000000"};
+constexpr NumberRule counts_or_all{0, 1e6, "0 (all) or a whole number up to 1000000"};
 constexpr NumberRule counts_or_zero{0, 1e15, "a whole number from 0 on"};
 constexpr NumberRule levels{5, 2047, "an odd number of blocks from 5 on"};
 constexpr NumberRule sides{5, 16384, "a side from 5 to 16384 pixels, at least one a block"};
 constexpr NumberRule shares{0, 1, "a share from 0 to 1"};
 constexpr NumberRule lengths{0, endless, "0 or a positive length in map units"};
-constexpr NumberRule seconds{1e-6, endless, "a positive number of seconds"};
 constexpr NumberRule factors{1, endless, "a factor from 1 on"};
 
 const std::vector<std::string> row_keys = {"planner",     "strategy",   "alpha",           "model",
@@ -66,7 +66,7 @@ QuerySource read_query(const Fields& fields) {
     fields.allow_only({"kind", "path", "count"});
     query.kind = QuerySource::Kind::scen;
     query.path = fields.text("path", "");
-    query.count = static_cast<int>(fields.count("count", 0, counts_or_zero));
+    query.count = static_cast<int>(fields.count("count", 0, counts_or_all));
   }
   return query;
 }
@@ -93,6 +93,7 @@ MapSource read_maze(const Fields& fields) {
   source.count = static_cast<int>(fields.count("count", source.count, counts));
   source.pixels = static_cast<int>(fields.count("pixels", source.pixels, sides));
   if (source.pixels < source.level) fields.refuse("pixels", sides.expected);
+  check_pixels(fields, "count", source.count, source.pixels);
   source.braid = fields.number("braid", source.braid, shares);
   source.seed = fields.seed("seed", source.seed);
   const std::string level = std::to_string(source.level);
@@ -170,7 +171,7 @@ PlanRow read_common(const Fields& fields, const PlanRow& fallback) {
   row.neighbors = fields.text("neighbors", row.neighbors);
   o.neighbors = checked_word(fields, "neighbors", row.neighbors, neighbors_from_string);
   o.cost_factor = fields.number("cost_factor", o.cost_factor, factors);
-  o.time_limit = fields.number("time_limit", o.time_limit, seconds);
+  o.time_limit = fields.number("time_limit", o.time_limit, time_limits);
   const std::int64_t limit = fields.count("iteration_limit", -1, counts_or_zero);
   if (limit == 0) o.iteration_limit = std::numeric_limits<std::size_t>::max();
   if (limit > 0) o.iteration_limit = static_cast<std::size_t>(limit);

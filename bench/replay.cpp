@@ -52,7 +52,7 @@ void keep_jobs_of(const Json& document, std::vector<Job>& jobs) {
 }
 
 void check_inputs(const Json& document, const Json& inputs, const std::filesystem::path& file) {
-  const Json& before = document.at("inputs");
+  const Json before = document.value("inputs", Json::object());
   for (const auto& [kind, entries] : before.items()) {
     for (const auto& [name, what] : entries.items()) {
       const Json now = inputs.value(kind, Json::object()).value(name, Json());

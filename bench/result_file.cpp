@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "result_file.hpp"
 
-#include <sstream>
+#include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <system_error>
+#include <utility>
 
 namespace lrrt::bench {
 namespace {
@@ -20,9 +23,40 @@ fs::path with_suffix(fs::path path, const char* suffix) {
   throw ResultError(path.string() + ": cannot be written; expected a folder that exists, may be written and has room");
 }
 
-/// A line of JSON, or null for the unfinished line of a run that was killed.
-Json parsed(const std::string& line) {
-  return Json::parse(line, nullptr, false);
+/// JSON, or a discarded value for what is none, such as the unfinished line of a run that was killed. Nesting that no
+/// result has is none either: what works on JSON afterwards recurses.
+template <typename Input>
+Json parsed(Input&& input) {
+  constexpr int deepest = 64;
+  bool too_deep = false;
+  const auto watch = [&](int depth, Json::parse_event_t, const Json&) {
+    too_deep = too_deep || depth > deepest;
+    return !too_deep;
+  };
+  Json json = Json::parse(std::forward<Input>(input), watch, false);
+  return too_deep ? Json(Json::value_t::discarded) : json;
+}
+
+bool is_count(const Json& row, const char* key) {
+  const auto found = row.find(key);
+  return found != row.end() && found->is_number_integer() && *found >= 0 &&
+         *found <= std::numeric_limits<std::int64_t>::max();
+}
+
+bool has_id(const Json& row) {
+  return row.is_object() && row.value("id", Json()).is_string();
+}
+
+bool is_row(const Json& row) {
+  const bool known = has_id(row) && row.value("ended_by_clock", Json(false)).is_boolean();
+  return known && (is_count(row, "area") || (is_count(row, "iterations") && is_count(row, "nodes")));
+}
+
+/// What a replay reads of a document, its rows left out, is what this program writes.
+bool is_head(const Json& json) {
+  const Json inputs = json.value("inputs", Json::object());
+  return json.contains("suite") && json.value("folder", Json("")).is_string() && inputs.is_object() &&
+         std::all_of(inputs.begin(), inputs.end(), [](const Json& kind) { return kind.is_object(); });
 }
 
 bool same_but_for_time(Json a, Json b) {
@@ -51,13 +85,15 @@ std::string text_of(const Json& document) {
 ResultFile::ResultFile(fs::path path, Json header) : path_(std::move(path)), header_(std::move(header)) {
   if (path_.empty()) return;
   std::error_code ignored;
-  if (fs::exists(part(), ignored)) resume();
+  if (fs::is_regular_file(part(), ignored)) resume();
   // Written anew rather than appended to: a run that was killed may have left half a line.
   stream_.open(with_suffix(part(), ".new"), std::ios::trunc);
   stream_ << dumped(header_) << '\n';
   for (const auto& [id, row] : rows_) stream_ << dumped(row) << '\n';
   if (!stream_.flush()) cannot_write(part());
-  fs::rename(with_suffix(part(), ".new"), part());
+  std::error_code error;
+  fs::rename(with_suffix(part(), ".new"), part(), error);
+  if (error) cannot_write(part());
 }
 
 fs::path ResultFile::part() const {
@@ -77,7 +113,7 @@ void ResultFile::resume() {
   header_ = std::move(begun);
   while (std::getline(file, line)) {
     const Json row = parsed(line);
-    if (row.is_object() && row.contains("id")) rows_[row.at("id").get<std::string>()] = row;
+    if (has_id(row)) rows_[row.at("id").get<std::string>()] = row;
   }
 }
 
@@ -117,14 +153,21 @@ void ResultFile::finish(const Json& document) {
 }
 
 Json read_result(const fs::path& path) {
-  std::ifstream file(path);
-  if (!file) throw ResultError(path.string() + ": cannot be read; expected a file that --json wrote");
-  Json json = Json::parse(file, nullptr, false);
-  const bool ours = json.is_object() && json.value("format", Json()) == format && json.contains("suite") &&
+  std::error_code ignored;
+  std::ifstream file;
+  if (fs::is_regular_file(path, ignored)) file.open(path);
+  if (!file.is_open()) throw ResultError(path.string() + ": cannot be read; expected a file that --json wrote");
+  Json json = parsed(file);
+  const bool ours = json.is_object() && json.value("format", Json()) == format && is_head(json) &&
                     json.value("rows", Json()).is_array();
   if (!ours) {
     throw ResultError(path.string() + ": is no result file; expected one that --json wrote ('format': '" + format +
                       "', a suite and rows)");
+  }
+  for (const Json& row : json.at("rows")) {
+    if (is_row(row)) continue;
+    throw ResultError(path.string() + ": row " + dumped(row).substr(0, 60) +
+                      " is none that --json wrote: expected an 'id', and either 'area' or 'iterations' and 'nodes'");
   }
   return json;
 }

@@ -14,7 +14,8 @@ constexpr NumberRule sides{16, 16384, "a side from 16 to 16384 pixels"};
 constexpr NumberRule threads_rule{1, 1024, "a number of threads from 1 to 1024"};
 constexpr NumberRule batches{1, 4096, "a number of predictions from 1 to 4096"};
 constexpr NumberRule levels{5, 2047, "an odd number of blocks from 5 on"};
-constexpr NumberRule counts{1, 1e9, "a whole number from 1 on"};
+constexpr NumberRule counts{1, 1e6, "a whole number from 1 to 1000000"};
+constexpr std::uintmax_t longest_suite = 1 << 20;  // bytes
 
 PredictSuite read_predict_suite(const Fields& fields) {
   fields.allow_only(
@@ -33,6 +34,7 @@ PredictSuite read_predict_suite(const Fields& fields) {
   if (suite.level > *std::min_element(suite.sizes.begin(), suite.sizes.end())) {
     fields.refuse("level", "no more blocks than the smallest of sizes has pixels");
   }
+  check_pixels(fields, "mazes", suite.mazes, *std::max_element(suite.sizes.begin(), suite.sizes.end()));
   return suite;
 }
 
@@ -83,6 +85,11 @@ Suite parse_suite(const std::string& text, const std::string& file, const fs::pa
 
 Suite load_suite(const std::string& name) {
   const fs::path path = find_suite(name);
+  std::error_code ignored;
+  if (fs::file_size(path, ignored) > longest_suite) {
+    throw SuiteError(path.string() + ": too large; expected a suite of at most " + std::to_string(longest_suite) +
+                     " bytes; is it the right file?");
+  }
   std::ifstream stream(path, std::ios::binary);
   std::stringstream text;
   text << stream.rdbuf();
@@ -127,7 +134,17 @@ std::string own_model(const std::string& model, const fs::path& folder) {
 
 }  // namespace
 
+void check_pixels(const Fields& fields, const std::string& key, int count, int side) {
+  constexpr std::int64_t most = std::int64_t{1} << 32;
+  if (std::int64_t{side} * side <= most / count) return;
+  fields.refuse(key, "mazes of at most " + std::to_string(most) + " pixels in all, which are held in memory");
+}
+
 void apply(const Overrides& overrides, Suite& suite) {
+  const double limit = overrides.time_limit.value_or(1.0);
+  if (!(limit >= time_limits.least && limit <= time_limits.most)) {
+    throw SuiteError("--time-limit " + std::to_string(limit) + ": expected " + time_limits.expected);
+  }
   std::visit(
       [&](auto& body) {
         body.runs = overrides.runs.value_or(body.runs);

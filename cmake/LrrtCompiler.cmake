@@ -27,4 +27,10 @@ function(lrrt_target_options target)
     target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-omit-frame-pointer)
     target_link_options(${target} PRIVATE -fsanitize=address,undefined)
   endif()
+  if(LRRT_BUILD_FUZZERS)  # every target tells libFuzzer which branches an input takes, and the first error ends the run
+    set(checks address,undefined,float-cast-overflow)
+    target_compile_options(${target} PRIVATE
+      -fsanitize=fuzzer-no-link,${checks} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_link_options(${target} PRIVATE -fsanitize=${checks})
+  endif()
 endfunction()

@@ -58,6 +58,12 @@ Neighbors neighbors_from_string(const std::string& word) {
   return from_word("neighbors", word, table);
 }
 
+OnPredictError on_predict_error_from_string(const std::string& word) {
+  constexpr std::array<std::pair<const char*, OnPredictError>, 2> table = {
+      {{"raise", OnPredictError::raise}, {"unguided", OnPredictError::unguided}}};
+  return from_word("on_predict_error", word, table);
+}
+
 Motion motion_from_string(const std::string& word) {
   constexpr std::array<std::pair<const char*, Motion>, 4> table = {{{"plane", Motion::plane},
                                                                     {"turning", Motion::turning},

@@ -30,7 +30,9 @@ PlanResult Planner::plan(const PlanRequest& request) const {
   FreeSpace space = make_free_space(request, predictor_.get(), result);
   if (const std::optional<Prepared> prepared = look(space, request, options_, result)) {
     if (predictor_) {
-      take_region(predictor_->predict(*prepared->guidance, request.start, request.goal), *prepared, request, result);
+      result.predict_error = failure_of(options_, [&] {
+        take_region(predictor_->predict(*prepared->guidance, request.start, request.goal), *prepared, request, result);
+      });
     }
     search(*prepared, request, options_, result);
   }

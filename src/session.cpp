@@ -6,6 +6,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -129,13 +130,21 @@ class Session::Memory {
     for (Task& task : tasks) {
       if (task.prepared) together[task.prepared->guidance.get()].push_back(&task);
     }
-    for (const auto& [map, those] : together) {
-      std::vector<RegionQuery> queries;
-      for (const Task* task : those) queries.push_back({task->request.start, task->request.goal});
-      std::vector<Prediction> predictions = planner_.predictor()->predict_many(*map, queries);
-      for (std::size_t i = 0; i < those.size(); ++i) {
-        take_region(std::move(predictions[i]), *those[i]->prepared, those[i]->request, those[i]->result);
+    for (const auto& group : together) {
+      const std::string failure = failure_of(planner_.options(), [&] { predict(*group.first, group.second); });
+      for (Task* task : group.second) {
+        task->result.predict_error = failure;
+        if (!failure.empty()) task->result.region = nullptr;
       }
+    }
+  }
+
+  void predict(const OccupancyMap& map, const std::vector<Task*>& tasks) const {
+    std::vector<RegionQuery> queries;
+    for (const Task* task : tasks) queries.push_back({task->request.start, task->request.goal});
+    std::vector<Prediction> predictions = planner_.predictor()->predict_many(map, queries);
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+      take_region(std::move(predictions[i]), *tasks[i]->prepared, tasks[i]->request, tasks[i]->result);
     }
   }
 

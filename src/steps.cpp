@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "steps.hpp"
 
+#include <exception>
 #include <memory>
 #include <string>
 #include <utility>
@@ -66,9 +67,9 @@ void take_region(Prediction prediction, const Prepared& prepared, const PlanRequ
   const OccupancyMap& map = *prepared.guidance;
   PromisingRegion& region = prediction.region;
   if (region.width() != map.width() || region.height() != map.height()) {
-    throw RequestError("the predictor returned a region of " + std::to_string(region.width()) + "×" +
-                       std::to_string(region.height()) + " pixels for a map of " + std::to_string(map.width()) + "×" +
-                       std::to_string(map.height()) + ": it must be as large as the map");
+    throw ModelError("the predictor returned a region of " + std::to_string(region.width()) + "×" +
+                     std::to_string(region.height()) + " pixels for a map of " + std::to_string(map.width()) + "×" +
+                     std::to_string(map.height()) + ": it must be as large as the map");
   }
   if (!region.connected()) {  // start and goal are joined, so there is a way to bridge its gaps
     region = region.bridged(map, OccupancyMap::pixel_of(map.to_pixel(request.start)),
@@ -78,6 +79,18 @@ void take_region(Prediction prediction, const Prepared& prepared, const PlanRequ
   result.timings.encode = prediction.timings.encode;
   result.timings.infer = prediction.timings.infer;
   result.timings.region = prediction.timings.region + watch.total_ms();
+}
+
+std::string failure_of(const PlanOptions& options, const std::function<void()>& predict) {
+  try {
+    predict();
+    return {};
+  } catch (const RequestError&) {
+    throw;  // start and goal are free by now
+  } catch (const std::exception& error) {
+    if (options.on_predict_error == OnPredictError::raise) throw;
+    return *error.what() != '\0' ? error.what() : "the predictor failed and did not say why";
+  }
 }
 
 void search(const Prepared& prepared, const PlanRequest& request, PlanOptions options, PlanResult& result) {

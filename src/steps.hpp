@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <string>
 
 #include "free_space.hpp"
 #include "lrrt/plan.hpp"
@@ -19,8 +21,13 @@ std::optional<Prepared> look(FreeSpace& space, const PlanRequest& request, const
                              PlanResult& result);
 
 /// Takes a region that was predicted on the map of the guidance, its gaps closed.
-/// @throws RequestError when it is of another size.
+/// @throws ModelError when it is of another size.
 void take_region(Prediction prediction, const Prepared& prepared, const PlanRequest& request, PlanResult& result);
+
+/// Runs what predicts regions; where it fails and the options allow to go on without, says why.
+/// @return what went wrong; empty when nothing did. @throws RequestError whatever the options say: what is wrong then
+/// is what the caller gave.
+std::string failure_of(const PlanOptions& options, const std::function<void()>& predict);
 
 /// Searches, guided by the result's region where it has one.
 void search(const Prepared& prepared, const PlanRequest& request, PlanOptions options, PlanResult& result);

@@ -63,6 +63,15 @@ enum class Neighbors {
 /// @throws RequestError for an unknown word; the text lists the known ones.
 Neighbors neighbors_from_string(const std::string& word);
 
+/// What becomes of a plan whose prediction fails.
+enum class OnPredictError {
+  raise,     ///< it fails too
+  unguided,  ///< it is made as with Strategy::uniform, and PlanResult::predict_error says why
+};
+
+/// @throws RequestError for an unknown word; the text lists the known ones.
+OnPredictError on_predict_error_from_string(const std::string& word);
+
 /// How the robot moves.
 enum class Motion {
   plane,        ///< a point or a disc on straight lines, without a heading
@@ -120,6 +129,9 @@ struct PlanOptions {
   bool keep_tree = false;                 ///< return the tree's edges
   Neighbors neighbors = Neighbors::grid;  ///< time only: the result is the same
   bool simplify = false;                  ///< spend what is left of the time limit on shortening the path at the end
+  /// A failure is every std::exception of the predictor, and a region of another size than the map's. A RequestError is
+  /// none: then the request is at fault, and it is raised either way.
+  OnPredictError on_predict_error = OnPredictError::raise;
 };
 
 /// Wall-clock time of each stage, milliseconds.
@@ -163,8 +175,9 @@ struct PlanResult {
   std::vector<CostStep> cost_history;             ///< strictly falling costs (RRT*)
   std::vector<TreeEdge> tree;                     ///< only with PlanOptions::keep_tree; straight, also for arcs
   std::shared_ptr<const PromisingRegion> region;  ///< the region that was used; on large maps in larger pixels
-  double reused = 0.0;    ///< share of the path's cost that Session::replan() took over from the path before
-  PlanTimings timings{};  ///< what each stage took
+  std::string predict_error;  ///< why the plan was made unguided, see OnPredictError; empty when nothing failed
+  double reused = 0.0;        ///< share of the path's cost that Session::replan() took over from the path before
+  PlanTimings timings{};      ///< what each stage took
 
   /// True when a path was found.
   bool solved() const { return status == PlanStatus::solved; }

@@ -92,6 +92,9 @@ def plan_command(
     ] = "frontier",
     alpha: Annotated[float, typer.Option(help="Share of guided samples, 0 to 1.")] = 0.8,
     model: Model = None,
+    on_predict_error: Annotated[
+        str, typer.Option(help="raise, or unguided: plan without guidance where the model fails, and warn.")
+    ] = "raise",
     stop: Annotated[
         str, typer.Option(help="first (path), factor (near the shortest), limit (use all the time).")
     ] = "first",
@@ -113,7 +116,6 @@ def plan_command(
     """
     try:
         map_, ends = _read(map_path, start, goal, pixels)
-        predictor = OnnxPredictor(model) if model is not None and strategy != "uniform" else None
         with Console(stderr=True).status(f"planning, up to {time_limit:g} s (Ctrl-C ends it) …"):
             result = plan(
                 map_,
@@ -121,7 +123,8 @@ def plan_command(
                 planner=planner,
                 strategy=strategy,
                 alpha=alpha,
-                predictor=predictor,
+                model=model,
+                on_predict_error=on_predict_error,
                 stop=stop,
                 cost_factor=cost_factor,
                 time_limit=time_limit,
@@ -135,6 +138,8 @@ def plan_command(
             _save(draw(map_, result=result, start=ends[0], goal=ends[1]), picture)
     except Error as error:
         _fail(error)
+    if result.predict_error:
+        _warn(f"planned without guidance: {result.predict_error}")
     if as_json:
         typer.echo(json.dumps(result_fields(result)))
     else:
@@ -310,6 +315,7 @@ def result_fields(result: PlanResult) -> dict[str, Any]:
             "bridge_area": region.bridge_area,
             "coarseness": region.coarseness,
         },
+        "predict_error": result.predict_error,
         "timings": result.timings,
     }
 
@@ -331,14 +337,18 @@ def _save(axes: Axes, picture: Path) -> None:
 
 
 def _fail(error: Exception) -> NoReturn:
-    Console(stderr=True, soft_wrap=True, highlight=False).print(f"[bold red]error:[/bold red] {_escaped(error)}")
+    _say("[bold red]error:[/bold red]", str(error))
     raise typer.Exit(EXIT_BAD_INPUT) from error
 
 
-def _escaped(error: Exception) -> str:
+def _warn(text: str) -> None:
+    _say("[bold yellow]warning:[/bold yellow]", text)
+
+
+def _say(kind: str, text: str) -> None:
     from rich.markup import escape
 
-    return escape(str(error))
+    Console(stderr=True, soft_wrap=True, highlight=False).print(f"{kind} {escape(text)}")
 
 
 def _plain_table() -> Table:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import stat
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -35,6 +36,8 @@ def decode_picture(path: str | os.PathLike[str]) -> npt.NDArray[np.uint8]:
     """
     source = os.fspath(path)
     try:
+        if not stat.S_ISREG(os.stat(source).st_mode):
+            raise MapError(f"{source}: not a regular file; expected a picture, not a folder, a device or a pipe")
         with Path(source).open("rb") as stream:
             image = _open(stream, source)
             _check_size(image.size, source)

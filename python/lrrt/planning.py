@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 import threading
 from collections.abc import Sequence
 from typing import Any
@@ -11,7 +12,16 @@ import numpy as np
 import numpy.typing as npt
 
 from lrrt import _core
-from lrrt._core import CancelToken, OccupancyMap, OnnxPredictor, PlanResult, RegionPredictor
+from lrrt._core import (
+    CancelToken,
+    ModelError,
+    OccupancyMap,
+    OnnxPredictor,
+    PlanResult,
+    RegionPredictor,
+    RequestError,
+    UnloadedPredictor,
+)
 
 Point = Sequence[float] | npt.NDArray[np.floating[Any]]  #: (x, y) in map units
 
@@ -46,6 +56,8 @@ def plan(
     strategy: str = "frontier",
     alpha: float = 0.8,
     predictor: RegionPredictor | None = None,
+    model: str | os.PathLike[str] | None = None,
+    on_predict_error: str = "raise",
     stop: str = "first",
     cost_factor: float = 1.05,
     time_limit: float = 5.0,
@@ -79,7 +91,11 @@ def plan(
         strategy: where guided samples come from: ``"frontier"`` (the region just ahead of the tree), ``"region"``
             (all of it, the paper's sampler), or ``"uniform"`` for planning without guidance.
         alpha: share of guided samples, 0 to 1; the others are uniform. 1 gives up completeness.
-        predictor: marks the region; None takes the shipped model (see ``default_predictor``).
+        predictor: marks the region; None takes ``model``.
+        model: ONNX file to load for this one call; None takes the shipped model (see ``default_predictor``). For many
+            calls load an ``OnnxPredictor`` once and hand it in as ``predictor``.
+        on_predict_error: ``"raise"``, or ``"unguided"``: where the model cannot be loaded or its prediction fails, plan
+            as with ``strategy="uniform"``; ``result.predict_error`` says why. A RequestError is raised either way.
         stop: ``"first"`` path, ``"factor"`` (cost within ``cost_factor`` of the straightened shortest grid path), or
             ``"limit"``: use all the time or iterations to shorten the path.
         cost_factor: for ``stop="factor"``, at least 1.
@@ -107,11 +123,14 @@ def plan(
         simplify: shorten the path at the end, within what is left of the time limit.
 
     Raises:
-        RequestError: an option is out of its range, a coordinate is not finite, or the robot cannot move as asked.
-        ModelError: the model cannot be loaded or fails.
+        RequestError: an option is out of its range, a coordinate is not finite, the robot cannot move as asked, or both
+            a predictor and a model are given.
+        ModelError: the model cannot be loaded or fails, with ``on_predict_error="raise"``.
     """
+    if predictor is not None and model is not None:
+        raise RequestError("predictor and model are both given: expected one of them; the other marks no region")
     if predictor is None and strategy != "uniform":
-        predictor = default_predictor()
+        predictor = load_predictor(model, on_predict_error)
     settings = _core.Settings(
         planner=planner,
         strategy=strategy,
@@ -132,5 +151,16 @@ def plan(
         motion=motion,
         turning_radius=turning_radius,
         simplify=simplify,
+        on_predict_error=on_predict_error,
     )
     return _core.plan(settings, predictor, map, as_point(start), as_point(goal), start_heading, goal_heading, cancel)
+
+
+def load_predictor(model: str | os.PathLike[str] | None, on_predict_error: str) -> RegionPredictor:
+    """The predictor of a model, or one that tells at its first prediction why there is none."""
+    try:
+        return default_predictor() if model is None else OnnxPredictor(os.fspath(model))
+    except ModelError as error:
+        if on_predict_error != "unguided":
+            raise
+        return UnloadedPredictor(str(error))

@@ -67,7 +67,7 @@ Settings settings(const std::string& planner, const std::string& strategy, doubl
                   double goal_bias, double goal_tolerance, double radius, const std::string& unknown,
                   std::uint64_t seed, bool keep_tree, const std::string& neighbors,
                   const std::optional<std::vector<Eigen::Vector2d>>& outline, const std::string& motion,
-                  double turning_radius, bool simplify) {
+                  double turning_radius, bool simplify, const std::string& on_predict_error) {
   Settings result;
   PlanOptions& options = result.options;
   options.planner = planner;
@@ -84,6 +84,7 @@ Settings settings(const std::string& planner, const std::string& strategy, doubl
   options.keep_tree = keep_tree;
   options.neighbors = neighbors_from_string(neighbors);
   options.simplify = simplify;
+  options.on_predict_error = on_predict_error_from_string(on_predict_error);
   result.radius = radius;
   result.unknown = unknown_from(unknown);
   if (outline) result.outline.emplace(*outline);
@@ -179,6 +180,9 @@ void bind_result(py::module_& module) {
       .def_readonly("reused", &PlanResult::reused,
                     "Share of the path's cost that Session.replan() took over from the path before; else 0.")
       .def_property_readonly(
+          "predict_error", [](const PlanResult& r) { return text_of(r.predict_error); },
+          "Why the plan was made unguided, with on_predict_error='unguided'; '' when nothing failed.")
+      .def_property_readonly(
           "timings", [](const PlanResult& r) { return timings_dict(r.timings); },
           "Milliseconds of each stage: prepare, encode, infer, region, plan, total.")
       .def("__repr__", [](const PlanResult& r) {
@@ -197,7 +201,7 @@ void bind_settings(py::module_& module) {
            py::arg("goal_tolerance") = defaults.goal_tolerance, py::arg("radius") = 0.0,
            py::arg("unknown") = "occupied", py::arg("seed") = defaults.seed, py::arg("keep_tree") = false,
            py::arg("neighbors") = "grid", py::arg("outline") = py::none(), py::arg("motion") = "plane",
-           py::arg("turning_radius") = 0.0, py::arg("simplify") = false);
+           py::arg("turning_radius") = 0.0, py::arg("simplify") = false, py::arg("on_predict_error") = "raise");
 }
 
 void bind_session(py::module_& module) {

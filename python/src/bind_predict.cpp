@@ -197,6 +197,17 @@ std::vector<std::shared_ptr<PromisingRegion>> predict_many(const RegionPredictor
   }
   return regions;
 }
+/// Stands for a model that could not be loaded: says so whenever it is asked for a region.
+class Unloaded final : public RegionPredictor {
+ public:
+  explicit Unloaded(std::string why) : why_(std::move(why)) {}
+  Prediction predict(const OccupancyMap&, const Eigen::Vector2d&, const Eigen::Vector2d&) const override {
+    throw ModelError(why_);
+  }
+
+ private:
+  std::string why_;
+};
 
 void bind_predictors(py::module_& module) {
   py::class_<RegionPredictor, std::shared_ptr<RegionPredictor>>(module, "RegionPredictor",
@@ -240,6 +251,10 @@ void bind_predictors(py::module_& module) {
            "Loads a model: a path, or None for the one that ships. `threads`: 0 chooses two (one on a single core).\n\n"
            "Raises ModelError when the file or ONNX Runtime cannot be loaded, or the metadata do not fit.")
       .def_property_readonly("info", &OnnxPredictor::info, "What the file says about the model.");
+
+  py::class_<Unloaded, RegionPredictor, std::shared_ptr<Unloaded>>(
+      module, "UnloadedPredictor", "Stands for a model that could not be loaded: every prediction is a ModelError.")
+      .def(py::init<std::string>(), py::arg("why"));
 }
 
 #ifdef LRRT_WITH_TORCH

@@ -8,6 +8,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <cstring>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,12 @@ void bind_read_map(py::module_& module);
 void bind_predict(py::module_& module);
 void bind_grid_predictors(py::module_& module);
 void bind_planner(py::module_& module);
+
+/// A text that may quote a broken file: bytes that are not UTF-8 are replaced.
+inline py::str text_of(const std::string& bytes) {
+  return py::reinterpret_steal<py::str>(
+      PyUnicode_DecodeUTF8(bytes.data(), static_cast<Py_ssize_t>(bytes.size()), "replace"));
+}
 
 /// Hands a vector to NumPy without copying it: the array owns the vector.
 template <typename T>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cstring>
 #include <exception>
 
 #include "bindings.hpp"
@@ -10,12 +9,8 @@ namespace {
 
 namespace py = pybind11;
 
-/// Raises with a text that may quote a broken file: bytes that are not UTF-8 are replaced.
 void raise(const py::handle& type, const std::exception& error) {
-  const char* text = error.what();
-  const auto message = py::reinterpret_steal<py::object>(
-      PyUnicode_DecodeUTF8(text, static_cast<Py_ssize_t>(std::strlen(text)), "replace"));
-  PyErr_SetObject(type.ptr(), message.ptr());
+  PyErr_SetObject(type.ptr(), lrrt::python::text_of(error.what()).ptr());
 }
 
 void translate(std::exception_ptr pointer) {

@@ -110,10 +110,21 @@ MapServerMode read_mode(const Fields& fields) {
 }
 
 double read_resolution(const Fields& fields) {
-  constexpr const char* expected = "a positive number of metres per pixel";
+  constexpr const char* expected = "a positive number of metres per pixel, from 1e-06 to 1e+06";
   const double resolution = fields.number("resolution", expected);
-  if (resolution <= 0.0) fields.fail("resolution", text_of(resolution), expected);
+  const bool fits = resolution >= finest_resolution && resolution <= coarsest_resolution;
+  if (!fits) fields.fail("resolution", text_of(resolution), expected);
   return resolution;
+}
+
+Pose2 read_origin(const Fields& fields) {
+  const Pose2 origin = fields.pose("origin");
+  for (const double coordinate : {origin.x, origin.y}) {
+    if (std::abs(coordinate) > farthest_origin) {
+      fields.fail("origin", text_of(coordinate), "coordinates at most 1e9 metres from zero");
+    }
+  }
+  return origin;
 }
 
 void read_thresholds(const Fields& fields, MapServerMeta& meta) {
@@ -180,7 +191,7 @@ MapServerMeta parse_map_server(const std::string& text, const std::filesystem::p
   meta.source = source;
   meta.image = source.parent_path() / fields.text("image", "the path of a picture");
   meta.resolution = read_resolution(fields);
-  meta.origin = fields.pose("origin");
+  meta.origin = read_origin(fields);
   meta.negate = fields.flag("negate");
   read_thresholds(fields, meta);
   meta.mode = read_mode(fields);
@@ -199,7 +210,8 @@ OccupancyMap interpret(const Image& image, const MapServerMeta& meta) {
 }
 
 OccupancyMap read_map_server(const std::filesystem::path& path, const ImageDecoder& decode) {
-  const MapServerMeta meta = parse_map_server(detail::read_bytes(path), path);
+  constexpr std::uintmax_t longest = 1 << 20;  // bytes; such a file has some ten lines
+  const MapServerMeta meta = parse_map_server(detail::read_bytes(path, longest), path);
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(meta.image, ignored)) {
     throw MapError(path.string() + ": field 'image' leads to " + meta.image.string() +

@@ -207,7 +207,8 @@ OccupancyMap read_moving_ai_map(const std::filesystem::path& path) {
 }
 
 std::vector<Scenario> read_scenarios(const std::filesystem::path& path) {
-  return parse_scenarios(detail::read_bytes(path), path.string());
+  constexpr std::uintmax_t longest = 1 << 28;  // bytes: millions of problems
+  return parse_scenarios(detail::read_bytes(path, longest), path.string());
 }
 
 }  // namespace lrrt

@@ -31,16 +31,13 @@ void check_size(int width, int height, std::size_t cells) {
 }
 
 void check_frame(double resolution, const Pose2& origin) {
-  // Beyond these bounds pixels cannot be told apart any more in double precision, or OMPL's distances overflow.
-  constexpr double finest = 1e-6;
-  constexpr double coarsest = 1e6;
-  constexpr double farthest = 1e9;
-  if (!(resolution >= finest && resolution <= coarsest)) {
+  if (!(resolution >= finest_resolution && resolution <= coarsest_resolution)) {
     std::ostringstream text;
-    text << "map resolution " << resolution << ": expected metres per pixel, from " << finest << " to " << coarsest;
+    text << "map resolution " << resolution << ": expected metres per pixel, from " << finest_resolution << " to "
+         << coarsest_resolution;
     throw MapError(text.str());
   }
-  if (!(std::abs(origin.x) <= farthest && std::abs(origin.y) <= farthest && std::isfinite(origin.yaw))) {
+  if (!(std::abs(origin.x) <= farthest_origin && std::abs(origin.y) <= farthest_origin && std::isfinite(origin.yaw))) {
     throw MapError("map origin [" + std::to_string(origin.x) + ", " + std::to_string(origin.y) + ", " +
                    std::to_string(origin.yaw) + "]: expected finite numbers, at most 1e9 metres from zero");
   }

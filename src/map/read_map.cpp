@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 #include <string>
+#include <system_error>
 
 #include "lrrt/error.hpp"
 #include "lrrt/map/map_server.hpp"
@@ -21,7 +22,10 @@ std::string lower_extension(const std::filesystem::path& path) {
   return extension;
 }
 
+/// Nothing for what is no regular file: a pipe would be waited for.
 std::string first_word(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return {};
   std::string word(5, '\0');
   std::ifstream stream(path, std::ios::binary);
   stream.read(word.data(), static_cast<std::streamsize>(word.size()));

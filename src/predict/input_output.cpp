@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "input_output.hpp"
 
+#include <algorithm>
+#include <sstream>
+
 #include "lrrt/error.hpp"
 
 namespace lrrt {
@@ -23,6 +26,18 @@ std::string shape_text(const std::vector<std::int64_t>& shape) {
   std::string text = "[";
   for (const std::int64_t side : shape) text += (text.size() > 1 ? ", " : "") + std::to_string(side);
   return text + "]";
+}
+
+void check_probabilities(const ModelInfo& info, const float* values, std::size_t count) {
+  constexpr float slack = 1e-3F;
+  const auto fits = [](float p) { return p >= -slack && p <= 1.0F + slack; };  // false for what is not a number
+  if (static_cast<std::size_t>(std::count_if(values, values + count, fits)) == count) return;
+  std::ostringstream text;
+  text << "model " << info.path.string() << " returned " << *std::find_if_not(values, values + count, fits)
+       << " for the class 'promising', expected probabilities from 0 to 1. Was it trained to the end, and does its "
+          "graph "
+          "end in a softmax or a sigmoid?";
+  throw ModelError(text.str());
 }
 
 }  // namespace lrrt

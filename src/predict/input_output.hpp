@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -8,6 +9,8 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "lrrt/predict/model_info.hpp"
 
 namespace lrrt {
 
@@ -53,5 +56,9 @@ class Pool {
   std::mutex mutex_;
   std::vector<std::unique_ptr<Workspace>> idle_;
 };
+
+/// @param values of the promising class, `count` of them, as the network returned them.
+/// @throws ModelError when one is not a number from 0 to 1, but for rounding.
+void check_probabilities(const ModelInfo& info, const float* values, std::size_t count);
 
 }  // namespace lrrt

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -82,22 +83,39 @@ std::vector<int> read_smaller(const Reader& reader, int size) {
   return sides;
 }
 
+/// True for a whole number from 0 to 255; what does not fit would be cut to it.
+bool is_level(const nlohmann::json& value) {
+  return value.is_number_integer() && value >= 0 && value <= 255;
+}
+
 Colours read_colours(const Reader& reader) {
   const std::string text = reader.text("colours");
   try {
     const auto json = nlohmann::json::parse(text);
     const auto colour = [&](const char* key) {
-      const auto levels = json.at(key).get<std::vector<int>>();
-      const bool fits =
-          levels.size() == 3 && std::all_of(levels.begin(), levels.end(), [](int v) { return v >= 0 && v <= 255; });
+      const nlohmann::json& levels = json.at(key);
+      const bool fits = levels.is_array() && levels.size() == 3 && std::all_of(levels.begin(), levels.end(), is_level);
       if (!fits) reader.fail("colours", std::string("has a '") + key + "' that is not three numbers from 0 to 255");
-      return Rgb{static_cast<std::uint8_t>(levels[0]), static_cast<std::uint8_t>(levels[1]),
-                 static_cast<std::uint8_t>(levels[2])};
+      return levels.get<Rgb>();
     };
     return {colour("start"), colour("goal"), colour("free"), colour("obstacle"), colour("promising")};
   } catch (const nlohmann::json::exception& error) {
     reader.fail("colours", std::string("is not an object of [red, green, blue] lists (") + error.what() + ")");
   }
+}
+
+std::vector<std::string> read_classes(const Reader& reader, int size) {
+  constexpr std::int64_t most_values = std::int64_t{1} << 28;  // of one output: a gigabyte
+  std::vector<std::string> classes = split(reader.text("classes"));
+  if (std::count(classes.begin(), classes.end(), "promising") != 1) {
+    reader.fail("classes", "is '" + reader.text("classes") + "', expected a list with one 'promising' in it");
+  }
+  if (static_cast<std::int64_t>(classes.size()) > most_values / (std::int64_t{size} * size)) {
+    reader.fail("classes", "names " + std::to_string(classes.size()) + " classes for an input of " +
+                               std::to_string(size) + "×" + std::to_string(size) + " pixels, expected at most " +
+                               std::to_string(most_values) + " values in one output");
+  }
+  return classes;
 }
 
 }  // namespace
@@ -116,11 +134,8 @@ ModelInfo read_model_info(const std::filesystem::path& path, const MetadataLooku
   const int least_side = info.input.smaller.empty() ? info.input.size : info.input.smaller.front();
   info.input.marker_side = reader.whole("marker_side", 1, least_side);
   info.input.colours = read_colours(reader);
-  info.classes = split(reader.text("classes"));
+  info.classes = read_classes(reader, info.input.size);
   const auto promising = std::find(info.classes.begin(), info.classes.end(), "promising");
-  if (promising == info.classes.end()) {
-    reader.fail("classes", "is '" + reader.text("classes") + "', expected a list with 'promising' in it");
-  }
   info.promising = static_cast<std::size_t>(promising - info.classes.begin());
   info.threshold = static_cast<float>(reader.number("threshold", 1e-6, 1.0));
   info.training_data = reader.text("training_data");

@@ -67,6 +67,7 @@ void infer(const Network& network, const OccupancyMap& map, const std::vector<Re
   const std::size_t plane = plane_size(side);
   const float* promising = output + network.info.promising * plane;
   for (PictureBatch::Entry& entry : batch.entries) {
+    check_probabilities(network.info, promising, plane);
     PromisingRegion region = region_of(map, queries[entry.query], entry.fit, promising, network.info.threshold);
     entry.timings.infer = share;
     entry.timings.region = watch.lap_ms();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -74,7 +75,7 @@ std::vector<Job> counting_jobs(int count, std::atomic<int>& runs, const std::fun
     jobs.push_back({"job " + std::to_string(i), "", [&runs, before, i] {
                       if (before) before(i);
                       ++runs;
-                      return Json{{"value", i}};
+                      return Json{{"value", i}, {"iterations", 0}, {"nodes", 0}};
                     }});
   }
   return jobs;
@@ -110,6 +111,53 @@ TEST_F(Results, AnotherRunsPartIsRefused) {
   { const ResultFile results(file(), {{"suite", 1}}); }
   EXPECT_THROW(ResultFile(file(), {{"suite", 2}}), ResultError);
   EXPECT_THROW(ResultFile("/nowhere/at/all.json", {{"suite", 2}}), ResultError);
+}
+
+TEST_F(Results, WhatIsNoResultIsRefused) {
+  const Json good = {{"format", "lrrt_bench 1"},
+                     {"suite", {{"kind", "predict"}}},
+                     {"folder", "."},
+                     {"inputs", {{"models", {{"default", "0"}}}}},
+                     {"rows", {{{"id", "a"}, {"iterations", 1}, {"nodes", 1}}, {{"id", "b"}, {"area", 7}}}}};
+  write_file(file(), good.dump());
+  EXPECT_EQ(read_result(file()), good);
+  std::vector<Json> bad = {Json(), Json::array(), Json::object()};
+  const auto with = [&](const char* place, const Json& value) {
+    Json changed = good;
+    changed[Json::json_pointer(place)] = value;
+    bad.push_back(changed);
+  };
+  with("/format", "lrrt_bench 0");
+  with("/folder", 5);
+  with("/inputs", "none");
+  with("/inputs/models", "none");
+  with("/rows", "none");
+  for (const Json& row : {Json(), Json(5), Json{{"id", 5}}, Json{{"id", "a"}}, Json{{"id", "a"}, {"area", -1}},
+                          Json{{"id", "a"}, {"iterations", 1}}, Json{{"id", "a"}, {"iterations", 1.5}, {"nodes", 1}},
+                          Json{{"id", "a"}, {"iterations", 1}, {"nodes", 18446744073709551615ULL}},
+                          Json{{"id", "a"}, {"area", 1}, {"ended_by_clock", 1}}}) {
+    with("/rows/0", row);
+  }
+  for (const Json& document : bad) {
+    write_file(file(), document.dump());
+    EXPECT_THROW(read_result(file()), ResultError) << document;
+  }
+  const std::string suite = good.at("suite").dump();
+  std::string nested = good.dump();
+  nested.replace(nested.find(suite), suite.size(), std::string(100000, '[') + std::string(100000, ']'));
+  write_file(file(), nested);
+  EXPECT_THROW(read_result(file()), ResultError);
+  fs::remove(file());
+  ASSERT_EQ(mkfifo(file().c_str(), 0600), 0);
+  EXPECT_THROW(read_result(file()), ResultError);
+}
+
+TEST_F(Results, ABrokenRowOfAPartIsMadeAgain) {
+  { const ResultFile results(file(), {{"suite", 1}}); }
+  std::ofstream(part(), std::ios::app) << "{\"id\": 5}\n[]\n{\"id\": \"a\"}\n" << std::string(100000, '[') << '\n';
+  const ResultFile results(file(), {{"suite", 1}});
+  EXPECT_EQ(results.size(), 1U);
+  EXPECT_TRUE(results.has("a"));
 }
 
 TEST_F(Results, AJobsErrorComesThroughAndKeepsTheRest) {

@@ -2,8 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <string>
 
+#include "arguments.hpp"
+#include "campaign.hpp"
 #include "grid_search.hpp"
 #include "lrrt/ompl/map_validity.hpp"
 #include "made_regions.hpp"
@@ -67,6 +71,60 @@ TEST(Suite, ErrorsNameFileLineKeyAndExpectation) {
   EXPECT_NE(error_of("kind: [").find("not YAML"), std::string::npos);
   EXPECT_NE(error_of("maps: 3").find("kind is missing"), std::string::npos);
   EXPECT_NE(error_of("- 1").find("expected lines 'key: value'"), std::string::npos);
+}
+
+TEST(Suite, AbsurdNumbersAreRefused) {
+  for (const auto& [from, to, place] : {std::array{"count: 2", "count: 1e9", "maps[0].count"},
+                                        {"pixels: 64", "pixels: 1e300", "maps[0].pixels"},
+                                        {"pixels: 64, count: 2", "pixels: 16384, count: 1000", "maps[0].count"},
+                                        {"level: 9", "level: .nan", "maps[0].level"},
+                                        {"count: 3", "count: -1", "queries[1].count"},
+                                        {"apart: 0.3", "apart: .inf", "queries[1].apart"},
+                                        {"kind: farthest", "kind: scen, count: 1e12", "queries[0].count"},
+                                        {"kind: plan", "kind: plan\nruns: 1e9", "runs"},
+                                        {"kind: plan", "kind: plan\ntime_limit: 1e300", "time_limit"},
+                                        {"kind: plan", "kind: plan\nradius: .nan", "radius"}}) {
+    EXPECT_NE(error_of(with(from, to)).find(std::string(place) + " is "), std::string::npos)
+        << error_of(with(from, to));
+  }
+  EXPECT_NE(error_of("kind: predict\nmazes: 1000\nsizes: [16384]\n").find("mazes is 1000"), std::string::npos);
+  Suite suite = parse_suite(small, "my.yaml", ".");
+  std::get<PlanSuite>(suite.body).runs = 1000000;
+  EXPECT_THROW(plan_campaign(suite, {}), SuiteError);
+  for (const double limit : {0.0, -1.0, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
+    Overrides changes;
+    changes.time_limit = limit;
+    EXPECT_THROW(apply(changes, suite), SuiteError) << limit;
+  }
+}
+
+TEST(Arguments, AreReadOrAnswered) {
+  const auto read = [](std::vector<const char*> words) {
+    words.insert(words.begin(), "lrrt_bench");
+    return read_arguments(static_cast<int>(words.size()), words.data());
+  };
+  const Arguments run = read({"--suite", "smoke", "--runs", "3", "--maps", "a", "b", "--shard=2/3"});
+  EXPECT_FALSE(run.exit);
+  EXPECT_EQ(run.request.suite, "smoke");
+  EXPECT_EQ(run.request.overrides.runs, 3);
+  EXPECT_EQ(run.request.overrides.maps, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(run.request.shard, "2/3");
+  EXPECT_TRUE(read({"--list"}).list);
+  EXPECT_EQ(read({"--help"}).exit, Outcome::done);
+  EXPECT_NE(read({"--help"}).out.find("--suite"), std::string::npos);
+  for (const std::vector<const char*>& wrong : {std::vector<const char*>{},
+                                                {"--runs", "0"},
+                                                {"--runs", "1e99"},
+                                                {"--seed", "-1"},
+                                                {"--seed", "x"},
+                                                {"--jobs", "nan"},
+                                                {"--suite", "a", "--replay", "b"},
+                                                {"--what"},
+                                                {"a"}}) {
+    const Arguments answer = read(wrong);
+    EXPECT_EQ(answer.exit, Outcome::failed);
+    EXPECT_FALSE(answer.out.empty() && answer.err.empty());
+  }
 }
 
 TEST(Suite, JsonReadsBackTheSame) {

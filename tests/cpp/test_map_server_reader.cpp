@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <climits>
 #include <cmath>
 #include <map>
 #include <opencv2/imgcodecs.hpp>
@@ -270,6 +272,43 @@ TEST(ReadMapServer, FindsRelativeAndAbsoluteImages) {
     fields["image"] = image;
     const auto map = read_map(folder.write("map.yaml", to_yaml(fields)));
     EXPECT_EQ(map.cells(), (Cells{free_cell, free_cell, free_cell, free_cell, free_cell, occupied})) << image;
+  }
+}
+
+TEST(ReadMapServer, NumbersBeyondTheMapsBoundsNameFileAndField) {
+  const TemporaryFolder folder;
+  folder.write("map.pgm", "P5 1 1 255\nx");
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"resolution", "1e-30"},      {"resolution", "1e30"},       {"resolution", "0"},
+      {"resolution", "-0.05"},      {"resolution", ".nan"},       {"resolution", ".inf"},
+      {"origin", "[1e10, 0, 0]"},   {"origin", "[0, -1e300, 0]"}, {"origin", "[0, 0, .nan]"},
+      {"occupied_thresh", "1e300"}, {"free_thresh", ".inf"},      {"free_thresh", "-1"}};
+  for (const auto& [field, value] : cases) {
+    auto fields = valid_fields();
+    fields[field] = value;
+    const auto file = folder.write("map.yaml", to_yaml(fields));
+    const std::string error = map_error_of([&, &f = file] { read_map(f); });
+    EXPECT_TRUE(contains(error, file.string() + ": field '" + field + "'")) << error << " for " << value;
+  }
+}
+
+TEST(ReadMapServer, OnlyRegularFilesOfAReasonableSizeAreRead) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  for (const std::string& image : {std::string("pipe"), std::string("/dev/zero"), std::string(".")}) {
+    auto fields = valid_fields();
+    fields["image"] = image;
+    const auto file = folder.write("map.yaml", to_yaml(fields));
+    EXPECT_TRUE(contains(map_error_of([&] { read_map(file); }), "field 'image'")) << image;
+  }
+  for (const char* name : {"a.yaml", "a.map", "a.png"}) {
+    ASSERT_EQ(mkfifo((folder / name).c_str(), 0600), 0);
+    EXPECT_TRUE(contains(map_error_of([&, n = name] { read_map(folder / n); }), "not a regular file")) << name;
+  }
+  for (const auto& [name, size] : {std::pair{"b.yaml", 1 << 21}, std::pair{"b.png", INT_MAX}}) {
+    const auto file = folder.write(name, "");
+    std::filesystem::resize_file(file, static_cast<std::uintmax_t>(size) + 1);  // holes: it takes no space
+    EXPECT_TRUE(contains(map_error_of([&, &f = file] { read_map(f); }), "too many")) << name;
   }
 }
 

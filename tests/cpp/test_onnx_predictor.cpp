@@ -77,8 +77,25 @@ TEST(OnnxPredictor, EndsThatAreNotFreeAreRefused) {
   EXPECT_THROW(predictor.predict(hall(), {0.5, 0.5}, {50.5, 0.5}), RequestError);
 }
 
-TEST(OnnxPredictor, OutputsThatAreNotNumbersMarkNothing) {
-  EXPECT_EQ(OnnxPredictor(tiny("nan")).predict(hall(), {0.5, 0.5}, {15.5, 0.5}).region.area(), 0U);
+TEST(OnnxPredictor, OutputsThatAreNoProbabilitiesAreRefused) {
+  const std::vector<std::pair<const char*, const char*>> reasons = {
+      {"nan", "nan"},
+      {"infinite", "inf"},
+      {"loud", "probabilities from 0 to 1"},
+      {"negative", "-1"},
+      {"cut_output", "failed"}};  // its graph leaves the output's sides open
+  for (const auto& [name, reason] : reasons) {
+    const OnnxPredictor predictor(tiny(name));
+    for (int i = 0; i < 2; ++i) {  // a failure leaves nothing behind
+      try {
+        predictor.predict(hall(), {0.5, 0.5}, {15.5, 0.5});
+        ADD_FAILURE() << name << ": expected a ModelError";
+      } catch (const ModelError& error) {
+        EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find(std::string(name) + ".onnx"), std::string::npos) << error.what();
+      }
+    }
+  }
 }
 
 TEST(OnnxPredictor, OneModelServesManyThreads) {
@@ -125,6 +142,8 @@ INSTANTIATE_TEST_SUITE_P(
                       std::pair{"wrong_classes", "expected [-1, 4, 16, 16]"}, std::pair{"no_promising", "'promising'"},
                       std::pair{"wrong_format", "'99'"}, std::pair{"wrong_colours", "'colours'"},
                       std::pair{"wrong_threshold", "'threshold'"}, std::pair{"fixed_sizes", "expected [-1, 3, -1, -1]"},
+                      std::pair{"open_classes", "[-1, -1, 16, 16]"}, std::pair{"half_output", "[-1, 3, 8, 8]"},
+                      std::pair{"wrong_opset", "pset"}, std::pair{"two_promising", "'promising'"},
                       std::pair{"odd_sizes", "'16,8'"}, std::pair{"no_passage", "'least_passage' is missing"}));
 
 TEST(OnnxPredictor, BrokenFilesAreRefused) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <future>
 #include <limits>
+#include <stdexcept>
 #include <thread>
 
 #include "lrrt/error.hpp"
@@ -45,6 +46,23 @@ class FixedPredictor final : public RegionPredictor {
  private:
   Kind kind_;
   int detail_;
+};
+
+/// Fails in one of the ways in which a predictor can.
+class FailingPredictor final : public RegionPredictor {
+ public:
+  enum class How { model_error, other_exception, wrong_size, request_error };
+  explicit FailingPredictor(How how) : how_(how) {}
+
+  Prediction predict(const OccupancyMap&, const Eigen::Vector2d&, const Eigen::Vector2d&) const override {
+    if (how_ == How::model_error) throw ModelError("the model is broken");
+    if (how_ == How::other_exception) throw std::runtime_error("the predictor is broken");
+    if (how_ == How::request_error) throw RequestError("the request is broken");
+    return {PromisingRegion(test::map_from_rows({".."}), {1.0F, 1.0F}, {0, 0}, {1, 0}), {}};
+  }
+
+ private:
+  How how_;
 };
 
 std::shared_ptr<const RegionPredictor> corridor() {
@@ -323,7 +341,7 @@ TEST(Planner, APredictorThatReturnsAnotherSizeIsRefused) {
   const OccupancyMap map = test::map_from_rows(std::vector<std::string>(40, std::string(50, '.')));
   PlanOptions options = unguided();
   options.strategy = Strategy::region;
-  EXPECT_THROW(Planner(std::make_shared<Wrong>(), options).plan({map, {1, 1}, {49, 39}}), RequestError);
+  EXPECT_THROW(Planner(std::make_shared<Wrong>(), options).plan({map, {1, 1}, {49, 39}}), ModelError);
 }
 
 TEST(Planner, AnotherThreadCanCancel) {
@@ -368,6 +386,48 @@ TEST(Planner, MoreTimeNeverMakesThePathLonger) {
   options.stop = Stop::factor;
   options.cost_factor = 1.1;
   EXPECT_LE(Planner(nullptr, options).plan({map, {1, 1}, {59, 59}}).cost, 1.1 * std::sqrt(2.0) * 58.0 + 1e-6);
+}
+
+TEST(Planner, APredictionThatFailsIsRaisedOrDoneWithout) {
+  using How = FailingPredictor::How;
+  Random random(31);
+  for (const auto& [how, text] :
+       {std::pair{How::model_error, "the model is broken"}, std::pair{How::other_exception, "the predictor is broken"},
+        std::pair{How::wrong_size, "2×1"}}) {
+    const auto predictor = std::make_shared<FailingPredictor>(how);
+    const OccupancyMap map = test::random_map(random, 20, 40);
+    const Eigen::Vector2d start = test::random_free_point(map, random);
+    PlanOptions options;
+    options.stop = Stop::limit;
+    options.iteration_limit = 300;
+    options.strategy = Strategy::uniform;
+    const PlanResult expected = Planner(nullptr, options).plan({map, start, start + Eigen::Vector2d(1e-3, 0.0)});
+    options.strategy = Strategy::frontier;
+    const PlanRequest request{map, start, start + Eigen::Vector2d(1e-3, 0.0)};
+    EXPECT_ANY_THROW(Planner(predictor, options).plan(request));
+    options.on_predict_error = OnPredictError::unguided;
+    const PlanResult result = Planner(predictor, options).plan(request);
+    EXPECT_NE(result.predict_error.find(text), std::string::npos) << result.predict_error;
+    EXPECT_EQ(result.region, nullptr);
+    EXPECT_EQ(result.status, expected.status);
+    EXPECT_EQ(result.path, expected.path);
+    EXPECT_EQ(result.nodes, expected.nodes);
+    EXPECT_EQ(result.draws.guided, 0U);
+  }
+}
+
+TEST(Planner, ABrokenRequestIsRaisedWhateverBecomesOfPredictions) {
+  const OccupancyMap map = test::map_from_rows({"...", "..."});
+  PlanOptions options;
+  options.on_predict_error = OnPredictError::unguided;
+  const Planner planner(std::make_shared<FailingPredictor>(FailingPredictor::How::request_error), options);
+  EXPECT_THROW(planner.plan({map, {0.5, 0.5}, {2.5, 1.5}}), RequestError);
+  EXPECT_THROW(Planner(corridor(), options).plan({map, {std::nan(""), 0.5}, {2.5, 1.5}}), RequestError);
+  const PlanResult fine = Planner(corridor(), options).plan({map, {0.5, 0.5}, {2.5, 1.5}});
+  EXPECT_TRUE(fine.solved());
+  EXPECT_NE(fine.region, nullptr);
+  EXPECT_EQ(fine.predict_error, "");
+  EXPECT_THROW(on_predict_error_from_string("ignore"), RequestError);
 }
 
 TEST(Planner, OptionsAndRequestsAreChecked) {

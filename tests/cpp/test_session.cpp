@@ -232,6 +232,24 @@ TEST(Session, RefusesWhatItCannotDo) {
   EXPECT_THROW(Session(planner_for(Strategy::uniform), wrong), RequestError);
 }
 
+TEST(Session, GoesOnWithoutAPredictionWhereItIsAllowedTo) {
+  class Broken final : public RegionPredictor {
+    Prediction predict(const OccupancyMap&, const Eigen::Vector2d&, const Eigen::Vector2d&) const override {
+      throw ModelError("the model is broken");
+    }
+  };
+  const OccupancyMap map(20, 20, std::vector<Cell>(400, Cell::free));
+  const PlanRequest robot{map, {0.5, 0.5}, {0.5, 0.5}};
+  const std::vector<Query> queries{{{1.5, 1.5}, {18.5, 18.5}}, {{1.5, 1.5}, {3.5, 18.5}}};
+  PlanOptions options;
+  EXPECT_THROW(Session(Planner(std::make_shared<Broken>(), options), robot).plan(queries), ModelError);
+  options.on_predict_error = OnPredictError::unguided;
+  for (const PlanResult& result : Session(Planner(std::make_shared<Broken>(), options), robot).plan(queries)) {
+    EXPECT_TRUE(result.solved());
+    EXPECT_EQ(result.predict_error, "the model is broken");
+  }
+}
+
 TEST(Session, CanBeMoved) {
   const OccupancyMap map(20, 20, std::vector<Cell>(400, Cell::free));
   Session one(planner_for(Strategy::uniform), {map, {0.5, 0.5}, {0.5, 0.5}});

@@ -70,9 +70,9 @@ TEST(TorchScriptPredictor, AWrongQueryOfManyIsNamed) {
   EXPECT_TRUE(predictor.predict_many(map, {}).empty());
 }
 
-TEST(TorchScriptPredictor, OutputsThatAreNotNumbersMarkNothing) {
+TEST(TorchScriptPredictor, OutputsThatAreNoProbabilitiesAreRefused) {
   const OccupancyMap map = test::map_from_rows({"....", "...."});
-  EXPECT_EQ(TorchScriptPredictor(tiny("nan.pt")).predict(map, {0.5, 0.5}, {3.5, 1.5}).region.area(), 0U);
+  EXPECT_THROW(TorchScriptPredictor(tiny("nan.pt")).predict(map, {0.5, 0.5}, {3.5, 1.5}), ModelError);
 }
 
 TEST(TorchScriptPredictor, OneModelServesManyThreads) {

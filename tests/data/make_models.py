@@ -51,28 +51,42 @@ def model(
     bias: float = 0.0,
     side: int | str = SIZE,
     batch: int | str = "batch",
+    stride: int = 1,
+    kept: tuple[int, int] | None = None,
+    opset: int = 17,
 ) -> onnx.ModelProto:
-    """image / 255 → 1×1 convolution that copies the green plane into the last class."""
+    """image / 255 → 1×1 convolution that copies the green plane into the last class.
+
+    ``kept``: an axis of the output and how much of it is kept, which the graph does not say: only a run tells.
+    """
+    shape = [batch, classes, *((side,) * 2 if stride == 1 else ("rows", "columns"))]
+    strides = {} if stride == 1 else {"strides": [stride, stride]}
     weight = np.zeros((classes, 3, 1, 1), np.float32)
     weight[-1, 1] = 1.0
     shift = np.full(classes, bias, np.float32)
     nodes = [
         helper.make_node("Cast", ["image"], ["number"], to=TensorProto.FLOAT),
         helper.make_node("Div", ["number", "scale"], ["unit"]),
-        helper.make_node("Conv", ["unit", "weight", "shift"], [output]),
+        helper.make_node("Conv", ["unit", "weight", "shift"], [output if kept is None else "all"], **strides),
     ]
+    constants = [
+        numpy_helper.from_array(np.array(255.0, np.float32), "scale"),
+        numpy_helper.from_array(weight, "weight"),
+        numpy_helper.from_array(shift, "shift"),
+    ]
+    if kept is not None:
+        axis, count = kept
+        shape[axis] = "kept"
+        nodes.append(helper.make_node("Compress", ["all", "kept"], [output], axis=axis))
+        constants.append(numpy_helper.from_array(np.ones(count, bool), "kept"))
     graph = helper.make_graph(
         nodes,
         "green",
         [helper.make_tensor_value_info("image", element, [batch, 3, side, side])],
-        [helper.make_tensor_value_info(output, TensorProto.FLOAT, [batch, classes, side, side])],
-        [
-            numpy_helper.from_array(np.array(255.0, np.float32), "scale"),
-            numpy_helper.from_array(weight, "weight"),
-            numpy_helper.from_array(shift, "shift"),
-        ],
+        [helper.make_tensor_value_info(output, TensorProto.FLOAT, shape)],
+        constants,
     )
-    return helper.make_model(graph, opset_imports=[helper.make_opsetid("", 17)], ir_version=8)
+    return helper.make_model(graph, opset_imports=[helper.make_opsetid("", opset)], ir_version=8)
 
 
 def properties(**changes: str | None) -> dict[str, str]:
@@ -192,6 +206,14 @@ def main() -> None:
     save("odd_sizes", model(side="side"), **{**SIZES, "smaller_inputs": "16,8"})
     save("no_passage", model(side="side"), **{**SIZES, "least_passage": None})
     save("nan", model(bias=float("nan")))
+    save("infinite", model(bias=float("inf")))
+    save("loud", model(bias=2.0))
+    save("negative", model(bias=-1.0))
+    save("half_output", model(stride=2))
+    save("cut_output", model(kept=(2, SIZE // 2)))
+    save("open_classes", model(kept=(1, 3)))
+    save("wrong_opset", model(opset=999))
+    save("two_promising", model(), classes="free,promising,promising")
     save("float_input", model(element=TensorProto.FLOAT))
     save("other_output", model(output="scores"))
     save("no_size", model(), input_size=None)

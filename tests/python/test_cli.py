@@ -46,6 +46,16 @@ def test_plan_prints_a_table_and_draws(picture, tmp_path):
     assert Image.open(tmp_path / "out.png").size[0] > 100
 
 
+def test_a_model_that_fails_is_told(picture):
+    query = ("plan", picture, "--start", 5, 5, "--goal", 35, 5, "--json", "--model", DATA / "models/nan.onnx")
+    run = invoke(*query)
+    assert run.exit_code == 2 and "error: " in run.stderr and "nan.onnx" in run.stderr
+    run = invoke(*query, "--on-predict-error", "unguided")
+    assert run.exit_code == 0 and "warning: planned without guidance" in run.stderr
+    fields = json.loads(run.stdout)
+    assert fields["solved"] and fields["region"] is None and "nan.onnx" in fields["predict_error"]
+
+
 def test_no_path_exits_with_3(picture):
     run = invoke("plan", picture, "--start", 5, 5, "--goal", 37, 37, "--json")
     assert run.exit_code == 3

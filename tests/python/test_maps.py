@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+import os
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,7 @@ from PIL import Image
 
 import lrrt
 from lrrt import demo
+from lrrt.pictures import decode_picture
 
 DATA = Path(__file__).parents[1] / "data"
 
@@ -58,6 +60,16 @@ def test_cells_are_a_read_only_view_that_keeps_the_map_alive():
 def test_arrays_that_are_no_map_are_refused(bad):
     with pytest.raises(lrrt.MapError, match=r"expected|needs"):
         lrrt.OccupancyMap.from_array(bad)
+
+
+@pytest.mark.parametrize("name", ["pipe.png", "pipe.map", "pipe.yaml"])
+def test_a_pipe_is_refused_rather_than_waited_for(tmp_path, name):
+    os.mkfifo(tmp_path / name)
+    for read in (lrrt.read_map, decode_picture):
+        with pytest.raises(lrrt.MapError, match="not a regular file"):
+            read(tmp_path / name)
+    with pytest.raises(lrrt.MapError, match="not a regular file"):
+        lrrt.read_map("/dev/zero")
 
 
 @pytest.mark.parametrize("resolution", [0.0, -0.05, math.nan, math.inf, 1e-30, 1e300])

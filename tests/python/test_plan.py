@@ -6,6 +6,7 @@ import os
 import signal
 import threading
 import time
+from pathlib import Path
 
 import numpy as np
 import oracle
@@ -14,6 +15,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import lrrt
+from lrrt import planning
 
 OPEN = lrrt.OccupancyMap.from_array(np.zeros((60, 60), bool))
 
@@ -142,6 +144,7 @@ def test_a_robot_needs_room(hall):
         ({"radius": -1.0}, "radius"),
         ({"unknown": "maybe"}, "occupied"),
         ({"neighbors": "kd"}, "grid"),
+        ({"on_predict_error": "ignore"}, "unguided"),
         ({"goal_bias": 0.0}, "goal_tolerance"),
         ({"planner": "RRT", "stop": "limit"}, "RRTstar"),
     ],
@@ -149,6 +152,42 @@ def test_a_robot_needs_room(hall):
 def test_options_out_of_range_are_refused(options, word):
     with pytest.raises(lrrt.RequestError, match=word):
         lrrt.plan(OPEN, (1, 1), (50, 50), **options)
+
+
+MODELS = Path(__file__).parents[1] / "data/models"
+
+
+def test_a_model_may_be_named():
+    assert lrrt.plan(OPEN, (1, 1), (50, 50), model=MODELS / "green.onnx").region is not None
+    with pytest.raises(lrrt.RequestError, match="both"):
+        lrrt.plan(OPEN, (1, 1), (50, 50), model="a.onnx", predictor=lrrt.AStarPredictor())
+
+
+@pytest.mark.parametrize("name", ["missing", "no_size", "nan"])  # no file, cannot be loaded, cannot predict
+def test_a_model_that_fails_is_raised_or_done_without(name):
+    query = (OPEN, (1, 1), (50, 50))
+    model = MODELS / f"{name}.onnx"
+    with pytest.raises(lrrt.ModelError, match=model.name):
+        lrrt.plan(*query, model=model)
+    result = lrrt.plan(*query, model=model, on_predict_error="unguided")
+    assert result.solved and result.region is None and model.name in result.predict_error
+    plain = lrrt.plan(*query, strategy="uniform")
+    assert plain.predict_error == "" and np.array_equal(result.path, plain.path)
+
+
+def test_a_default_model_that_fails_is_done_without(monkeypatch, tmp_path):
+    monkeypatch.setattr(planning, "_default", None)
+    monkeypatch.setenv("LRRT_MODEL", str(tmp_path / "gone.onnx"))
+    with pytest.raises(lrrt.ModelError, match="gone"):
+        lrrt.plan(OPEN, (1, 1), (50, 50))
+    assert "gone" in lrrt.plan(OPEN, (1, 1), (50, 50), on_predict_error="unguided").predict_error
+
+
+def test_a_region_of_another_size_is_the_callers_mistake():
+    region = lrrt.GivenRegion(np.ones((3, 3), np.float32))
+    for word in ("raise", "unguided"):
+        with pytest.raises(lrrt.RequestError):
+            lrrt.plan(OPEN, (1, 1), (50, 50), predictor=region, on_predict_error=word)
 
 
 @pytest.mark.parametrize("point", [(math.nan, 1), (1, math.inf)])

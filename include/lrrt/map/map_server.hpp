@@ -30,9 +30,9 @@ struct MapServerMeta {
 
 /// Parses the text of a map_server YAML file; fields of other tools are ignored.
 /// @param source path of the YAML file: named in errors, and its folder is where a relative `image` starts.
-/// @throws MapError that names file and field: broken YAML, missing field, wrong type, a resolution that is not
-/// positive,
-///   numbers that are not finite, thresholds out of 0..1 or out of order, an unknown mode.
+/// @throws MapError that names file and field: broken YAML, missing field, wrong type, a resolution or an
+/// origin beyond the bounds of OccupancyMap, numbers that are not finite, thresholds out of 0..1 or out of order, an
+/// unknown mode.
 MapServerMeta parse_map_server(const std::string& text, const std::filesystem::path& source);
 
 /// Reads the picture of a map_server map as free, occupied and unknown cells in metres.

@@ -55,6 +55,12 @@ struct Bounds {
 /// Most pixels that a map may have: 16384 × 16384.
 inline constexpr std::int64_t max_map_pixels = std::int64_t{1} << 28;
 
+/// Bounds of a map's frame: beyond them pixels cannot be told apart any more in double precision, or OMPL's distances
+/// overflow.
+inline constexpr double finest_resolution = 1e-6;   ///< metres per pixel
+inline constexpr double coarsest_resolution = 1e6;  ///< metres per pixel
+inline constexpr double farthest_origin = 1e9;      ///< metres from zero, along x and y
+
 /// A trinary occupancy grid and the frame it lives in.
 ///
 /// Two frames exist. *Pixel coordinates* are continuous, x right and y down; pixel (c, r) covers [c, c+1) × [r, r+1).
