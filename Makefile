@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The everyday commands. Each does the set-up that it needs, skips what is up to date, and can be interrupted and
 # run again. Variables: PRESET (release, debug, asan, ci), JOBS, PYTHON, ONNXRUNTIME_ROOT, CONFIG, MODEL, SUITE,
-# BENCH_OPTIONS, SECONDS, FUZZ, LOCKED (no: Python tools as requirements-dev.txt allows, not as locked).
+# BENCH_OPTIONS, SECONDS, FUZZ, RUNS, LOAD_OPTIONS, LEAST_COVERAGE, LOCKED (no: Python tools as requirements-dev.txt
+# allows, not as locked).
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 SHELL := /bin/bash
@@ -13,6 +14,8 @@ SUITE ?= smoke
 SECONDS ?= 60
 FUZZ ?=
 BENCH_OPTIONS ?=
+RUNS ?= 100000
+LOAD_OPTIONS ?=
 JOBS ?= $(shell nproc)
 export JOBS
 python := .venv/bin/python
@@ -81,6 +84,29 @@ tidy: build ## Run clang-tidy on the library (minutes)
 .PHONY: fuzz
 fuzz: setup ## Fuzz every reader and the planner with Clang's libFuzzer: SECONDS=60 for each, FUZZ="suite plan" for some
 	@scripts/fuzz.sh $(SECONDS) $(FUZZ)
+
+.PHONY: nightly
+nightly: install-python ## Check many random queries by independent code: RUNS=100000 (an hour or so)
+	@LRRT_PROPERTY_RUNS=$(RUNS) LRRT_PROPERTY_JOBS=$(JOBS) build/$(PRESET)/tests/lrrt_property_tests
+	@LRRT_PROPERTY_RUNS=$$(( $(RUNS) / 50 + 1 )) $(python) -m pytest -q --timeout 3600 tests/python/test_properties.py
+
+.PHONY: load
+load: build ## Plan with 32 threads on one model for five minutes: LOAD_OPTIONS="--threads 8 --seconds 60"
+	@build/$(PRESET)/tests/lrrt_load $(LOAD_OPTIONS)
+
+.PHONY: sanitize
+sanitize: setup ## Run the C++ tests under the address, undefined-behaviour and thread sanitizers
+	@scripts/checks.sh sanitize
+
+.PHONY: valgrind
+valgrind: setup ## Run the C++ examples under valgrind's memcheck
+	@scripts/setup_apt.sh valgrind
+	@scripts/checks.sh valgrind
+
+.PHONY: coverage
+coverage: setup ## Measure how many lines of src/ the C++ tests run; fails below LEAST_COVERAGE=90 percent
+	@scripts/setup_apt.sh gcovr
+	@scripts/checks.sh coverage
 
 .PHONY: format
 format: setup ## Format C++ and Python sources in place

@@ -33,6 +33,11 @@ void check_for_planner(const PlanOptions& options) {
     throw RequestError("planner " + options.planner +
                        " ends at its first path: use Stop::first, or RRTstar to shorten it");
   }
+  if (options.goal_tolerance > 0.0 && !takes_goal_tolerance(options.planner)) {
+    throw RequestError("planner " + options.planner +
+                       " cannot plan to a goal_tolerance above 0: OMPL's own code ends the process then; set it to 0, "
+                       "or choose BITstar");
+  }
   if (options.goal_bias == 0.0 && options.goal_tolerance == 0.0 && needs_goal_bias(options.planner)) {
     throw RequestError(
         "goal_bias and goal_tolerance are both 0: a random sample never hits the goal exactly; raise one of them");

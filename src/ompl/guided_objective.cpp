@@ -4,11 +4,20 @@
 #include <ompl/base/ProblemDefinition.h>
 #include <ompl/base/SpaceInformation.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace lrrt {
 
 namespace ob = ompl::base;
+
+namespace {
+
+/// Tries for a state that could shorten the path. AIT* would allow four thousand million, and where the path is the
+/// straight line none fits: it then looks at no clock for minutes.
+constexpr unsigned int most_attempts = 1000;
+
+}  // namespace
 
 GuidedInformedSampler::GuidedInformedSampler(const ob::ProblemDefinitionPtr& problem, unsigned int attempts,
                                              ob::InformedSamplerPtr inner, std::shared_ptr<GuidedSource> source,
@@ -20,11 +29,13 @@ GuidedInformedSampler::GuidedInformedSampler(const ob::ProblemDefinitionPtr& pro
       other_coordinates_(space_->allocDefaultStateSampler()) {}
 
 bool GuidedInformedSampler::sampleUniform(ob::State* state, const ob::Cost& most) {
-  return guided(state, nullptr, most) || informed(state, nullptr, most) || inner_->sampleUniform(state, most);
+  return source_->ended(*space_, state) || guided(state, nullptr, most) || informed(state, nullptr, most) ||
+         inner_->sampleUniform(state, most);
 }
 
 bool GuidedInformedSampler::sampleUniform(ob::State* state, const ob::Cost& least, const ob::Cost& most) {
-  return guided(state, &least, most) || informed(state, &least, most) || inner_->sampleUniform(state, least, most);
+  return source_->ended(*space_, state) || guided(state, &least, most) || informed(state, &least, most) ||
+         inner_->sampleUniform(state, least, most);
 }
 
 bool GuidedInformedSampler::fits(const ob::State* state, const ob::Cost* least, const ob::Cost& most) const {
@@ -63,13 +74,15 @@ GuidedObjective::GuidedObjective(ob::OptimizationObjectivePtr inner, std::shared
   description_ = inner_->getDescription();
   setCostThreshold(inner_->getCostThreshold());
   if (inner_->hasCostToGoHeuristic()) {
-    setCostToGoHeuristic(
-        [own = inner_](const ob::State* state, const ob::Goal* goal) { return own->costToGo(state, goal); });
+    setCostToGoHeuristic([own = inner_, source = source_](const ob::State* state, const ob::Goal* goal) {
+      return source->over() ? own->identityCost() : own->costToGo(state, goal);
+    });
   }
 }
 
 ob::InformedSamplerPtr GuidedObjective::allocInformedStateSampler(const ob::ProblemDefinitionPtr& problem,
                                                                   unsigned int attempts) const {
+  attempts = std::min(attempts, most_attempts);
   return std::make_shared<GuidedInformedSampler>(
       problem, attempts, inner_->allocInformedStateSampler(problem, attempts), source_, cost_is_length_);
 }

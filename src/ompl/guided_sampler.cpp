@@ -29,6 +29,7 @@ GuidedValidStateSampler::GuidedValidStateSampler(const ob::SpaceInformation* si,
 }
 
 bool GuidedValidStateSampler::sample(ob::State* state) {
+  if (source_->ended(*si_->getStateSpace(), state)) return true;
   for (unsigned int attempt = 0; attempt < attempts_; ++attempt) {
     source_->place(state, *uniform_);
     if (si_->isValid(state)) return true;
@@ -37,6 +38,7 @@ bool GuidedValidStateSampler::sample(ob::State* state) {
 }
 
 bool GuidedValidStateSampler::sampleNear(ob::State* state, const ob::State* near, double distance) {
+  if (source_->ended(*si_->getStateSpace(), state)) return true;
   const bool guided = source_->wants_guided();
   for (unsigned int attempt = 0; attempt < attempts_; ++attempt) {
     // the last attempts take any free state: nothing promising may lie near
@@ -53,11 +55,11 @@ GuidedStateSampler::GuidedStateSampler(const ob::StateSpace* space, std::shared_
     : ob::StateSampler(space), source_(std::move(source)), uniform_(space->allocDefaultStateSampler()) {}
 
 void GuidedStateSampler::sampleUniform(ob::State* state) {
-  source_->place(state, *uniform_);
+  if (!source_->ended(*space_, state)) source_->place(state, *uniform_);
 }
 
 void GuidedStateSampler::sampleUniformNear(ob::State* state, const ob::State* near, double distance) {
-  source_->place_near(state, near, distance, *uniform_);
+  if (!source_->ended(*space_, state)) source_->place_near(state, near, distance, *uniform_);
 }
 
 void GuidedStateSampler::sampleGaussian(ob::State* state, const ob::State* mean, double deviation) {

@@ -51,6 +51,7 @@ MapSearch::MapSearch(SearchSpace space, const Pose2& start, const Pose2& goal, M
       {options_.range, options_.goal_bias, planner_seed(options_.seed), options_.neighbors == Neighbors::grid});
   planner_.planner->setProblemDefinition(problem_);
   source_ = guide(*planner_.planner, std::move(sampler), space_.projection);
+  source_->end_with([this] { return limits_->interrupted_at_motion(); }, problem_->getStartState(0));
   planner_.planner->setup();
 }
 

@@ -55,6 +55,9 @@ constexpr bool has_directed_edges =
     !is_a<Planner, og::PRM, og::LazyPRM, og::BiEST, og::RRTXstatic, og::BITstar, og::AITstar, og::InformedRRTstar>;
 template <typename Planner>
 constexpr bool has_goal_bias = is_a<Planner, og::RRT, og::RRTstar, og::RRTXstatic, og::TRRT, og::EST, og::SST>;
+/// AIT* takes samples that satisfy the goal for goals, and then trips over them.
+template <typename Planner>
+constexpr bool has_goal_regions = !is_a<Planner, og::AITstar>;
 
 /// OMPL seeds the generators of a process one after the other, so a planner's numbers depend on how many were made
 /// before it. The generator is protected: a subclass gives each planner its own seed.
@@ -113,12 +116,13 @@ struct Entry {
   MapPlanner (*maker)(const ob::SpaceInformationPtr&, const PlannerSettings&);
   bool shortens;         ///< goes on after its first path to shorten it
   bool keeps_direction;  ///< checks every motion in the direction in which it is used
+  bool goal_tolerance;   ///< copes with a goal that has an extent
   bool aims_at_goal;     ///< reaches the goal only because some iterations aim at it
 };
 
 template <typename Planner>
 constexpr Entry describe(bool shortens) {
-  return {&make<Planner>, shortens, has_directed_edges<Planner>, has_goal_bias<Planner>};
+  return {&make<Planner>, shortens, has_directed_edges<Planner>, has_goal_regions<Planner>, has_goal_bias<Planner>};
 }
 
 const std::map<std::string, Entry>& table() {
@@ -180,6 +184,10 @@ bool needs_goal_bias(const std::string& name) {
 
 bool keeps_direction(const std::string& name) {
   return entry(name).keeps_direction;
+}
+
+bool takes_goal_tolerance(const std::string& name) {
+  return entry(name).goal_tolerance;
 }
 
 MapPlanner make_planner(const std::string& name, const ob::SpaceInformationPtr& si, const PlannerSettings& settings) {

@@ -5,11 +5,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "footprint_oracle.hpp"
 #include "lrrt/error.hpp"
 #include "lrrt/map/polygon.hpp"
 #include "lrrt/map/swept_footprint.hpp"
@@ -25,159 +25,12 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-/// A second opinion that shares nothing with the library but the map: the robot is cut into triangles by clipping ears,
-/// and every triangle is held against every pixel that is not free, the ones around the map included.
-class Oracle {
- public:
-  Oracle(const OccupancyMap& map, Vertices vertices) : map_(map), vertices_(std::move(vertices)) { clip_ears(); }
-
-  bool is_free(const Pose2& pose) const { return keeps(pose, 0.0); }
-
-  /// Whether the robot is at least this far, in pixels, from everything that is not free; at 0, whether it touches
-  /// nothing.
-  bool keeps(const Pose2& pose, double distance) const {
-    const Vertices corners = placed(pose);
-    const auto [low, high] = box(corners, distance);
-    for (int r = static_cast<int>(std::floor(low.y())); r <= high.y(); ++r) {
-      for (int c = static_cast<int>(std::floor(low.x())); c <= high.x(); ++c) {
-        if (map_.is_free({c, r})) continue;
-        if (touches(corners, c, r) || (distance > 0.0 && gap(corners, c, r) < distance)) return false;
-      }
-    }
-    return true;
-  }
-
- private:
-  static std::pair<Vector2d, Vector2d> box(const Vertices& corners, double margin) {
-    Vector2d low = corners.front();
-    Vector2d high = low;
-    for (const Vector2d& corner : corners) {
-      low = low.cwiseMin(corner);
-      high = high.cwiseMax(corner);
-    }
-    return {low.array() - margin, high.array() + margin};
-  }
-
-  Vertices placed(const Pose2& pose) const {
-    Vertices corners;
-    for (const Vector2d& v : vertices_) {
-      const Vector2d world(pose.x + std::cos(pose.yaw) * v.x() - std::sin(pose.yaw) * v.y(),
-                           pose.y + std::sin(pose.yaw) * v.x() + std::cos(pose.yaw) * v.y());
-      corners.push_back(map_.to_pixel(world));
-    }
-    return corners;
-  }
-
-  void clip_ears() {
-    std::vector<std::size_t> left(vertices_.size());
-    std::iota(left.begin(), left.end(), 0U);
-    double area = 0.0;
-    for (std::size_t i = 0; i < left.size(); ++i) area += cross(vertices_[i], vertices_[(i + 1) % left.size()]);
-    if (area < 0.0) std::reverse(left.begin(), left.end());
-    while (left.size() > 3) {
-      std::size_t i = 0;
-      while (i < left.size() && !is_ear(left, i)) ++i;
-      ASSERT_LT(i, left.size());
-      const std::size_t n = left.size();
-      triangles_.push_back({left[(i + n - 1) % n], left[i], left[(i + 1) % n]});
-      left.erase(left.begin() + static_cast<std::ptrdiff_t>(i));
-    }
-    triangles_.push_back({left[0], left[1], left[2]});
-  }
-
-  bool is_ear(const std::vector<std::size_t>& left, std::size_t i) const {
-    const std::size_t n = left.size();
-    const Vector2d& a = vertices_[left[(i + n - 1) % n]];
-    const Vector2d& b = vertices_[left[i]];
-    const Vector2d& c = vertices_[left[(i + 1) % n]];
-    if (cross(b - a, c - b) <= 0.0) return false;
-    for (const std::size_t k : left) {
-      const Vector2d& p = vertices_[k];
-      if (p == a || p == b || p == c) continue;
-      if (cross(b - a, p - a) >= 0.0 && cross(c - b, p - b) >= 0.0 && cross(a - c, p - c) >= 0.0) return false;
-    }
-    return true;
-  }
-
-  /// Whether the projections of a triangle and a pixel overlap on an axis.
-  static bool overlap(const Vertices& triangle, int c, int r, const Vector2d& axis) {
-    double low[2] = {infinity, infinity};
-    double high[2] = {-infinity, -infinity};
-    for (const Vector2d& p : triangle) {
-      low[0] = std::min(low[0], axis.dot(p));
-      high[0] = std::max(high[0], axis.dot(p));
-    }
-    for (const Vector2d& p : square(c, r)) {
-      low[1] = std::min(low[1], axis.dot(p));
-      high[1] = std::max(high[1], axis.dot(p));
-    }
-    return low[0] <= high[1] && low[1] <= high[0];
-  }
-
-  static std::array<Vector2d, 4> square(int c, int r) {
-    return {Vector2d(c, r), Vector2d(c + 1, r), Vector2d(c + 1, r + 1), Vector2d(c, r + 1)};
-  }
-
-  bool touches(const Vertices& corners, int c, int r) const {
-    for (const auto& [i, j, k] : triangles_) {
-      const Vertices triangle = {corners[i], corners[j], corners[k]};
-      bool all = overlap(triangle, c, r, {1.0, 0.0}) && overlap(triangle, c, r, {0.0, 1.0});
-      for (std::size_t e = 0; all && e < 3; ++e) {
-        const Vector2d side = triangle[(e + 1) % 3] - triangle[e];
-        all = overlap(triangle, c, r, {-side.y(), side.x()});
-      }
-      if (all) return true;
-    }
-    return false;
-  }
-
-  static double to_segment(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
-    const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-    return (p - a - t * (b - a)).norm();
-  }
-
-  /// Distance to a pixel that the robot does not touch.
-  static double gap(const Vertices& corners, int c, int r) {
-    const auto pixel = square(c, r);
-    double least = infinity;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      for (std::size_t k = 0; k < 4; ++k) {
-        least = std::min(least, to_segment(corners[i], pixel[k], pixel[(k + 1) % 4]));
-        least = std::min(least, to_segment(pixel[k], corners[i], corners[(i + 1) % corners.size()]));
-      }
-    }
-    return least;
-  }
-
-  const OccupancyMap& map_;
-  Vertices vertices_;
-  std::vector<std::array<std::size_t, 3>> triangles_;
-};
-
 /// A random map, every other one in metres with a turned frame far from zero.
 OccupancyMap random_framed_map(Random& random, int i, int least_side, int most_side) {
   const OccupancyMap map = test::random_map(random, least_side, most_side);
   if (i % 2 == 0) return map;
   const Pose2 origin{random.uniform(-50.0, 50.0), random.uniform(-50.0, 50.0), random.uniform(-4.0, 4.0)};
   return {map.width(), map.height(), map.cells(), random.uniform(0.02, 3.0), origin};
-}
-
-/// A random simple polygon, seldom convex, either way round; the reference point may lie outside. @param size map
-/// units.
-Vertices random_vertices(Random& random, double size) {
-  const std::size_t n = 3 + random.index(6);
-  const Vector2d centre = size * Vector2d(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5));
-  Vertices vertices;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double angle = 2.0 * pi * (static_cast<double>(i) + random.uniform(0.0, 0.8)) / static_cast<double>(n);
-    vertices.push_back(centre + size * random.uniform(0.15, 1.0) * Vector2d(std::cos(angle), std::sin(angle)));
-  }
-  if (random.uniform() < 0.5) std::reverse(vertices.begin(), vertices.end());
-  return vertices;
 }
 
 /// A pose on the map or up to two pixels beside it.
@@ -256,7 +109,7 @@ TEST(Polygon, RectangleHasItsReferencePointOnTheCentreLine) {
 TEST(Polygon, DiscsHoldAndAreHeld) {
   Random random(41);
   for (int i = 0; i < 200; ++i) {
-    const Polygon polygon(random_vertices(random, 3.0));
+    const Polygon polygon(test::random_vertices(random, 3.0));
     EXPECT_EQ(polygon.inscribed_radius() > 0.0, polygon.contains({0.0, 0.0}));
     for (int k = 0; k < 200; ++k) {
       const Vector2d point(random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0));
@@ -275,9 +128,9 @@ TEST(FootprintWalk, APoseIsFreeExactlyWhenNoTriangleTouchesABlockedPixel) {
   for (int i = 0; i < 1000; ++i) {
     const OccupancyMap map = random_framed_map(random, i, 3, 48);
     const DistanceField field(map);
-    const Vertices vertices = random_vertices(random, random.uniform(0.1, 10.0) * map.resolution());
+    const Vertices vertices = test::random_vertices(random, random.uniform(0.1, 10.0) * map.resolution());
     const FootprintWalk walk(map, field, Polygon(vertices));
-    const Oracle oracle(map, vertices);
+    const test::FootprintOracle oracle(map, vertices);
     for (int k = 0; k < 100; ++k) {
       const Pose2 pose = random_pose(map, random);
       const bool expected = oracle.is_free(pose);
@@ -297,9 +150,9 @@ void try_motions(std::uint64_t seed, int maps, const Judge& judge) {
     const OccupancyMap map = random_framed_map(random, i / 2, 16, 48);
     const DistanceField field(map);
     const double pixel = map.resolution();
-    const Vertices vertices = random_vertices(random, random.uniform(0.1, 4.0) * pixel);
+    const Vertices vertices = test::random_vertices(random, random.uniform(0.1, 4.0) * pixel);
     const FootprintWalk walk(map, field, Polygon(vertices));
-    const Oracle oracle(map, vertices);
+    const test::FootprintOracle oracle(map, vertices);
     for (int k = 0; k < 40; ++k) {
       const Motion motion{random_pose(map, random), random.uniform(0.0, 12.0) * pixel, random.uniform(-2.0, 2.0),
                           k % 2 == 0, random.uniform(-pi, pi)};
@@ -312,15 +165,17 @@ constexpr int moments = 2000;
 
 TEST(FootprintWalk, AMotionCalledFreeIsFreeAtEveryMoment) {
   int free = 0;
-  try_motions(43, 200, [&](const Oracle& oracle, const FootprintWalk& walk, const Motion& motion, bool answer, double) {
-    if (!answer) return;
-    ++free;
-    for (int k = 0; k <= moments; ++k) {
-      const Pose2 pose = motion(static_cast<double>(k) / moments);
-      ASSERT_TRUE(oracle.is_free(pose)) << k;
-    }
-    EXPECT_TRUE(walk.is_free(motion(0.0)) && walk.is_free(motion(1.0)));
-  });
+  try_motions(
+      43, 200,
+      [&](const test::FootprintOracle& oracle, const FootprintWalk& walk, const Motion& motion, bool answer, double) {
+        if (!answer) return;
+        ++free;
+        for (int k = 0; k <= moments; ++k) {
+          const Pose2 pose = motion(static_cast<double>(k) / moments);
+          ASSERT_TRUE(oracle.is_free(pose)) << k;
+        }
+        EXPECT_TRUE(walk.is_free(motion(0.0)) && walk.is_free(motion(1.0)));
+      });
   EXPECT_GT(free, 100);
 }
 
@@ -328,7 +183,8 @@ TEST(FootprintWalk, AMotionIsRefusedOnlyWhenItComesNearerThanTheTolerance) {
   int refused = 0;
   int close = 0;
   try_motions(44, 200,
-              [&](const Oracle& oracle, const FootprintWalk& walk, const Motion& motion, bool answer, double pixel) {
+              [&](const test::FootprintOracle& oracle, const FootprintWalk& walk, const Motion& motion, bool answer,
+                  double pixel) {
                 if (answer) return;
                 ++refused;
                 const double step = motion.speed(walk.polygon()) / pixel / moments;
@@ -353,9 +209,9 @@ TEST(FootprintWalk, ABriefTouchIsNotMissed) {
     const OccupancyMap map = random_framed_map(random, i, 24, 48);
     const DistanceField field(map);
     const double pixel = map.resolution();
-    const Vertices vertices = random_vertices(random, random.uniform(0.1, 6.0) * pixel);
+    const Vertices vertices = test::random_vertices(random, random.uniform(0.1, 6.0) * pixel);
     const FootprintWalk walk(map, field, Polygon(vertices));
-    const Oracle oracle(map, vertices);
+    const test::FootprintOracle oracle(map, vertices);
     for (int k = 0; k < 30; ++k) {
       const Pose2 home = random_pose(map, random);
       if (!oracle.is_free(home)) continue;
@@ -398,7 +254,7 @@ TEST(FootprintWalk, AWallOfOnePixelIsNeverJumpedOver) {
   for (const OccupancyMap* map : {&wall, &stairs}) {
     const DistanceField field(*map);
     for (int i = 0; i < 2000; ++i) {
-      const FootprintWalk walk(*map, field, Polygon(random_vertices(random, random.uniform(0.01, 3.0))));
+      const FootprintWalk walk(*map, field, Polygon(test::random_vertices(random, random.uniform(0.01, 3.0))));
       const Vector2d from(random.uniform(5.0, 95.0), random.uniform(5.0, 95.0));
       const Vector2d to(random.uniform(205.0, 295.0), random.uniform(5.0, 95.0));
       const Vector2d way = to - from;

@@ -45,7 +45,8 @@ class GuidedInformedSampler final : public ompl::base::InformedSampler {
 };
 
 /// Another objective, word for word, but for the informed sampler that it hands out: OMPL's informed planners ask the
-/// objective for it and never the space.
+/// objective for it and never the space. Once the search must end its heuristics are 0, which is always true: OMPL's
+/// ordered sampler draws until a state could shorten the path, without end where none can.
 class GuidedObjective final : public ompl::base::OptimizationObjective {
  public:
   /// @param cost_is_length see GuidedInformedSampler.
@@ -59,7 +60,7 @@ class GuidedObjective final : public ompl::base::OptimizationObjective {
     return inner_->motionCost(from, to);
   }
   ompl::base::Cost motionCostHeuristic(const ompl::base::State* from, const ompl::base::State* to) const override {
-    return inner_->motionCostHeuristic(from, to);
+    return source_->over() ? identityCost() : inner_->motionCostHeuristic(from, to);
   }
   bool isSatisfied(ompl::base::Cost cost) const override { return inner_->isSatisfied(cost); }
   bool isCostBetterThan(ompl::base::Cost a, ompl::base::Cost b) const override {

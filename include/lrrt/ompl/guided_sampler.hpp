@@ -5,6 +5,7 @@
 #include <ompl/base/StateSampler.h>
 #include <ompl/base/ValidStateSampler.h>
 
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -38,6 +39,22 @@ class GuidedSource {
         projection_(std::move(projection)),
         start_(map_->to_pixel(start)),
         goal_(map_->to_pixel(goal)) {}
+
+  /// Tells how a search ends within an iteration: some planners of OMPL draw until a state is free and could shorten
+  /// the path, and look at no clock meanwhile. @param over true once the search must end; asked at every draw.
+  /// @param free a state that is free then; must outlive this.
+  void end_with(std::function<bool()> over, const ompl::base::State* free) {
+    over_ = std::move(over);
+    free_ = free;
+  }
+  /// True once the search must end.
+  bool over() const { return over_ && over_(); }
+  /// Gives the free state instead of a drawn one once the search must end. @return whether it did.
+  bool ended(const ompl::base::StateSpace& space, ompl::base::State* state) const {
+    if (!over()) return false;
+    space.copyState(state, free_);
+    return true;
+  }
 
   /// The next state: position and heading from the sampler, its other coordinates from OMPL's own one.
   void place(ompl::base::State* state, ompl::base::StateSampler& other);
@@ -80,6 +97,8 @@ class GuidedSource {
   std::shared_ptr<const MapProjection> projection_;
   Eigen::Vector2d start_;  // pixel coordinates
   Eigen::Vector2d goal_;
+  std::function<bool()> over_;
+  const ompl::base::State* free_ = nullptr;
 };
 
 /// The paper's biased sampler as OMPL's ValidStateSampler: only collision-free states. For planners such as PRM.

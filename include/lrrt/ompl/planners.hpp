@@ -41,6 +41,10 @@ bool needs_goal_bias(const std::string& name);
 /// in which its path uses it, and copes with distances that are not symmetric. @throws RequestError as above.
 bool keeps_direction(const std::string& name);
 
+/// True for a planner that may plan to a goal with an extent (PlanOptions::goal_tolerance). AIT* of OMPL 1.5 fails an
+/// assertion there, which ends the process. @throws RequestError as above.
+bool takes_goal_tolerance(const std::string& name);
+
 /// Makes an OMPL planner by name. RRT* and its kin rewire within a shrinking disc (Karaman and Frazzoli 2011), as the
 /// paper's does.
 /// @throws RequestError as check_planner_name().

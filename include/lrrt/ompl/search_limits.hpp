@@ -28,11 +28,14 @@ class SearchLimits {
     return false;
   }
 
-  /// Asked at every motion: one iteration of RRT-Connect may hold any number of them. Looks at the clock now and then.
+  /// Asked at every motion and every draw: one iteration of RRT-Connect may hold any number of motions, one of AIT* any
+  /// number of draws. Looks at the clock now and then.
   /// @return true when time is over or the caller gave up.
   bool interrupted_at_motion() {
-    constexpr std::uint32_t motions_between_looks = 64;
-    if (!interrupted_ && ++motions_ % motions_between_looks == 0) interrupted();
+    constexpr std::uint32_t asked_between_looks = 64;
+    const std::uint32_t asked = asked_.load(std::memory_order_relaxed) + 1;  // a count that is lost does no harm
+    asked_.store(asked, std::memory_order_relaxed);
+    if (!interrupted_ && asked % asked_between_looks == 0) interrupted();
     return interrupted_;
   }
 
@@ -59,7 +62,7 @@ class SearchLimits {
   std::size_t iteration_limit_;
   CancelToken cancel_;
   std::atomic<std::size_t> iterations_{0};
-  std::uint32_t motions_ = 0;
+  std::atomic<std::uint32_t> asked_{0};
   std::atomic<bool> interrupted_{false};
 };
 
