@@ -7,6 +7,7 @@
 #include <string>
 
 #include "lrrt/error.hpp"
+#include "lrrt/ompl/control_planners.hpp"
 #include "lrrt/ompl/planners.hpp"
 
 namespace lrrt {
@@ -54,11 +55,36 @@ void check_outline(const PlanRequest& request) {
   if (!request.outline) return;
   if (request.motion == Motion::plane) {
     throw RequestError(
-        "the request has an outline but Motion::plane: an outline needs headings; choose Motion::turning, "
-        "Motion::dubins or Motion::reeds_shepp, or give a radius instead");
+        "the request has an outline but Motion::plane: an outline needs headings; choose another motion, as "
+        "Motion::turning, or give a radius instead");
   }
   if (!request.outline->contains(Eigen::Vector2d::Zero())) {
     throw RequestError("the outline does not hold its reference point (0, 0): shift its vertices");
+  }
+}
+
+/// True for a turning radius that the arithmetic copes with on a map: curves are made for a radius of 1, and many
+/// millions of them defeat it.
+bool turns_within(double radius, const OccupancyMap& map) {
+  const double least = 1e-6 * map.resolution() * std::max(map.width(), map.height());
+  return radius >= least && radius <= 1e6 * map.resolution();
+}
+
+void check_speeds(const PlanRequest& request) {
+  const double pixel = request.map.get().resolution();
+  const auto reasonable = [&](double speed) { return speed >= 1e-6 * pixel && speed <= 1e9 * pixel; };
+  if (!reasonable(request.speed)) {
+    refuse("speed", request.speed, "a positive number of map units per second, from a millionth to 1e9 pixels");
+  }
+  if (request.reverse_speed != 0.0 && !reasonable(request.reverse_speed)) {
+    refuse("reverse_speed", request.reverse_speed,
+           "0 for a robot that only drives forwards, or a positive number of map units per second");
+  }
+  if (request.motion != Motion::unicycle) return;
+  if (!(request.turn_rate > 0.0) || !turns_within(request.speed / request.turn_rate, request.map)) {
+    refuse("turn_rate", request.turn_rate,
+           "a positive number of radians per second; at full speed that has to be a radius from a millionth of the "
+           "map's side to a million pixels");
   }
 }
 
@@ -67,15 +93,31 @@ void check_motion(const PlanRequest& request) {
   const char* heading = "a finite angle in radians";
   if (!std::isfinite(request.start_heading)) refuse("start_heading", request.start_heading, heading);
   if (!std::isfinite(request.goal_heading)) refuse("goal_heading", request.goal_heading, heading);
-  if (request.motion != Motion::dubins && request.motion != Motion::reeds_shepp) return;
-  // Curves are made for a radius of 1: a map of many millions of them defeats their arithmetic.
-  const OccupancyMap& map = request.map.get();
-  const double least = 1e-6 * map.resolution() * std::max(map.width(), map.height());
-  const double most = 1e6 * map.resolution();
-  if (!(request.turning_radius >= least && request.turning_radius <= most)) {
+  if (is_driven(request.motion)) check_speeds(request);
+  const bool turns_anywhere =
+      request.motion == Motion::plane || request.motion == Motion::turning || request.motion == Motion::unicycle;
+  if (!turns_anywhere && !turns_within(request.turning_radius, request.map)) {
     refuse("turning_radius", request.turning_radius,
            "a positive length in map units, from a millionth of the map's side to a million pixels; or Motion::turning "
-           "for a robot that turns on the spot");
+           "or Motion::unicycle for a robot that turns on the spot");
+  }
+}
+
+/// A driven robot has planners of its own, and ends near the goal only.
+void check_driven(const PlanOptions& options) {
+  check_control_planner_name(options.planner);
+  if (options.goal_tolerance == 0.0) {
+    throw RequestError(
+        "goal_tolerance is 0: a driven robot (Motion::unicycle, Motion::car) never ends exactly at its goal; allow it "
+        "a distance in map units");
+  }
+  if (options.clearance > 0.0) {
+    throw RequestError(
+        "clearance adds to lengths, but a driven robot's path costs time: leave it 0, or give a radius to be kept");
+  }
+  if (options.simplify) {
+    throw RequestError(
+        "simplify is for robots that can move between any two poses; a driven robot cannot: leave it off");
   }
 }
 
@@ -86,6 +128,10 @@ void check(const PlanOptions& options) {
   check_share("goal_bias", options.goal_bias);
   check_at_least("range", options.range, 0.0, "0 (choose by the map) or a positive length in map units");
   check_at_least("goal_tolerance", options.goal_tolerance, 0.0, "0 or a positive length in map units");
+  check_at_least("heading_tolerance", options.heading_tolerance, 1e-6,
+                 "a positive angle in radians; pi for any heading");
+  check_at_least("clearance", options.clearance, 0.0, "0 (no wish) or a positive length in map units");
+  check_at_least("clearance_weight", options.clearance_weight, 0.0, "0 or a positive number");
   check_at_least("cost_factor", options.cost_factor, 1.0, "at least 1");
   if (!(options.time_limit > 0.0)) refuse("time_limit", options.time_limit, "a positive number of seconds");
   check_for_planner(options);
@@ -95,6 +141,7 @@ void check(const PlanRequest& request, const PlanOptions& options) {
   check_point("start", request.start);
   check_point("goal", request.goal);
   check_motion(request);
+  if (is_driven(request.motion)) check_driven(options);
   const double least_range = 1e-3 * request.map.get().resolution();
   if (options.range > 0.0 && options.range < least_range) {
     refuse("range", options.range, "at least a thousandth of a pixel, in map units; or 0 to choose by the map");

@@ -48,6 +48,14 @@ OccupancyMap with_room_somewhere(const CollisionMap& map, double radius) {
   return map.map().with_cells(std::move(cells));
 }
 
+bool starts_at_goal(const PlanRequest& request, const PlanOptions& options) {
+  if (is_driven(request.motion)) {
+    return (request.goal - request.start).norm() <= options.goal_tolerance &&
+           turn_to_goal(request) <= options.heading_tolerance;
+  }
+  return request.start == request.goal && wrapped_angle(request.start_heading) == wrapped_angle(request.goal_heading);
+}
+
 std::shared_ptr<const OccupancyMap> shared(OccupancyMap map) {
   return std::make_shared<const OccupancyMap>(std::move(map));
 }
@@ -57,11 +65,12 @@ std::shared_ptr<const OccupancyMap> shared(OccupancyMap map) {
 FreeSpace::FreeSpace(const PlanRequest& request, int detail)
     : detail_(detail), grown_(shared(inflated(request.map.get().resolved(request.unknown), request.radius)), detail) {}
 
-Prepared FreeSpace::prepare(const PlanRequest& request, double goal_tolerance) {
+Prepared FreeSpace::prepare(const PlanRequest& request, const PlanOptions& options) {
   Prepared prepared;
   prepared.hopeless = outside(grown_.map(), request);
   if (prepared.hopeless) return prepared;
-  return request.motion == Motion::plane ? prepare_plane(request, goal_tolerance) : prepare_poses(request);
+  return request.motion == Motion::plane ? prepare_plane(request, options.goal_tolerance)
+                                         : prepare_poses(request, options);
 }
 
 Prepared FreeSpace::prepare_plane(const PlanRequest& request, double goal_tolerance) {
@@ -112,7 +121,7 @@ Room* FreeSpace::joining_room(const PlanRequest& request, std::shared_ptr<const 
   return joins(*closed_) ? &*closed_ : nullptr;
 }
 
-Prepared FreeSpace::prepare_poses(const PlanRequest& request) {
+Prepared FreeSpace::prepare_poses(const PlanRequest& request, const PlanOptions& options) {
   Prepared prepared;
   prepared.body = body(request);
   prepared.hopeless = occupied(prepared.body->is_free(pose(request.start, request.start_heading)),
@@ -126,16 +135,19 @@ Prepared FreeSpace::prepare_poses(const PlanRequest& request) {
   prepared.map = room->collision();
   prepared.reach =
       std::max(grown_.map().resolution(), prepared.body->outline().circumscribed_radius() + request.radius);
-  prepared.arrived =
-      request.start == request.goal && wrapped_angle(request.start_heading) == wrapped_angle(request.goal_heading);
+  prepared.arrived = starts_at_goal(request, options);
   return prepared;
 }
 
 double default_range(const Prepared& prepared, const PlanRequest& request) {
   const double range = suitable_range(*prepared.map);
-  return request.motion == Motion::dubins || request.motion == Motion::reeds_shepp
+  return request.motion == Motion::dubins || request.motion == Motion::reeds_shepp || request.motion == Motion::car
              ? std::max(range, request.turning_radius)
              : range;
+}
+
+double turn_to_goal(const PlanRequest& request) {
+  return std::abs(wrapped_angle(request.goal_heading - request.start_heading));
 }
 
 Pose2 pose(const Eigen::Vector2d& point, double heading) {

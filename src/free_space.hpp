@@ -30,15 +30,15 @@ class FreeSpace {
   FreeSpace(const PlanRequest& request, int detail);
 
   /// Looks at start and goal.
-  /// @param request a query for the same robot on the same map. @param goal_tolerance map units.
-  Prepared prepare(const PlanRequest& request, double goal_tolerance);
+  /// @param request a query for the same robot on the same map. @param options of which the tolerances count.
+  Prepared prepare(const PlanRequest& request, const PlanOptions& options);
   /// True when the robot of the request touches nothing along a straight line or, where it drives on them, along the
   /// one arc from pose to pose.
   bool is_free(const PlanRequest& request, const Pose2& from, const Pose2& to);
 
  private:
   Prepared prepare_plane(const PlanRequest& request, double goal_tolerance);
-  Prepared prepare_poses(const PlanRequest& request);
+  Prepared prepare_poses(const PlanRequest& request, const PlanOptions& options);
   const std::shared_ptr<const CollisionBody>& body(const PlanRequest& request);
   /// The room of the disc that the outline holds, and the map on which it joins start and goal; null when none does.
   Room* joining_room(const PlanRequest& request, std::shared_ptr<const OccupancyMap>& guidance);
@@ -49,6 +49,9 @@ class FreeSpace {
   std::optional<Room> closed_;  ///< the same but for pixels that are surely closed
   std::shared_ptr<const CollisionBody> body_;
 };
+
+/// From start_heading to goal_heading the shorter way, radians, never negative.
+double turn_to_goal(const PlanRequest& request);
 
 /// The range for a request that leaves it to the map, map units.
 double default_range(const Prepared& prepared, const PlanRequest& request);

@@ -65,10 +65,12 @@ OnPredictError on_predict_error_from_string(const std::string& word) {
 }
 
 Motion motion_from_string(const std::string& word) {
-  constexpr std::array<std::pair<const char*, Motion>, 4> table = {{{"plane", Motion::plane},
+  constexpr std::array<std::pair<const char*, Motion>, 6> table = {{{"plane", Motion::plane},
                                                                     {"turning", Motion::turning},
                                                                     {"dubins", Motion::dubins},
-                                                                    {"reeds_shepp", Motion::reeds_shepp}}};
+                                                                    {"reeds_shepp", Motion::reeds_shepp},
+                                                                    {"unicycle", Motion::unicycle},
+                                                                    {"car", Motion::car}}};
   return from_word("motion", word, table);
 }
 

@@ -90,6 +90,9 @@ class Session::Memory {
       last_ = query;
       result.status = PlanStatus::solved;
       mended->tell(robot_.motion, result);
+      result.goal_distance = (result.path.back() - query.goal).norm();
+      result.goal_turn =
+          result.headings.empty() ? 0.0 : std::abs(wrapped_angle(result.headings.back() - query.goal_heading));
       result.timings.total = result.timings.plan = watch.total_ms();
       result.cost_history = {{result.timings.plan, result.iterations, result.cost}};
       keep(std::move(*mended));
@@ -174,7 +177,8 @@ class Session::Memory {
 
   /// The trail from a pose on, mended where it is not free any more; nothing when that cannot be done near by.
   std::optional<Trail> mend(const Pose2& start, const CancelToken& cancel, PlanResult& result) {
-    if (trail_.empty()) return std::nullopt;
+    // What a driven robot does, and what clearance costs, is not told by the poses of a path alone.
+    if (trail_.empty() || is_driven(robot_.motion) || planner_.options().clearance > 0.0) return std::nullopt;
     const std::size_t nearest = trail_.nearest(start, std::max(map_.resolution(), reach_));
     Trail mended;
     std::size_t done = nearest;  // the trail is dealt with up to here

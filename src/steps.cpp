@@ -27,10 +27,17 @@ MapSampler sampler_for(const Prepared& prepared, const PromisingRegion* region, 
                       {options.strategy, options.alpha, options.range, options.seed});
 }
 
-SearchSpace space_for(const Prepared& prepared, const PlanRequest& request,
+SearchSpace space_for(const Prepared& prepared, const PlanRequest& request, const PlanOptions& options,
                       const std::shared_ptr<SearchLimits>& limits) {
-  if (!prepared.body) return plane_space(prepared.map, limits);
-  return pose_space(prepared.map, prepared.body, request.motion, request.turning_radius, prepared.reach, limits);
+  const ClearanceCost clearance{options.clearance / request.map.get().resolution(), options.clearance_weight};
+  if (!prepared.body) return plane_space(prepared.map, clearance, limits);
+  if (is_driven(request.motion)) {
+    // numbers that have nothing to do with those of the planner, which come from the seed itself
+    const auto seed = static_cast<std::uint32_t>(Random(~options.seed).bits() >> 32U) | 1U;
+    return drive_space(prepared.map, prepared.body, Drive(request), options.range, prepared.reach, seed, limits);
+  }
+  return pose_space(prepared.map, prepared.body, request.motion, request.turning_radius, prepared.reach, clearance,
+                    limits);
 }
 
 /// The result of a query that ends where it starts; OMPL's planners take the goal for one more state to be reached.
@@ -38,6 +45,8 @@ void arrive(const PlanRequest& request, PlanResult& result) {
   result.status = PlanStatus::solved;
   result.path = {request.start, request.start};
   if (request.motion != Motion::plane) result.headings.assign(2, wrapped_angle(request.start_heading));
+  result.goal_distance = (request.goal - request.start).norm();
+  result.goal_turn = request.motion == Motion::plane ? 0.0 : turn_to_goal(request);
   result.cost = 0.0;
   result.cost_history = {{0.0, 0, 0.0}};
 }
@@ -54,7 +63,7 @@ FreeSpace make_free_space(const PlanRequest& request, const RegionPredictor* pre
 std::optional<Prepared> look(FreeSpace& space, const PlanRequest& request, const PlanOptions& options,
                              PlanResult& result) {
   const Stopwatch watch;
-  Prepared prepared = space.prepare(request, options.goal_tolerance);
+  Prepared prepared = space.prepare(request, options);
   result.timings.prepare += watch.total_ms();
   if (prepared.hopeless) result.status = *prepared.hopeless;
   if (prepared.arrived) arrive(request, result);
@@ -97,7 +106,7 @@ void search(const Prepared& prepared, const PlanRequest& request, PlanOptions op
   const Stopwatch watch;
   if (options.range == 0.0) options.range = default_range(prepared, request);
   const auto limits = std::make_shared<SearchLimits>(options.time_limit, options.iteration_limit, request.cancel);
-  MapSearch search(space_for(prepared, request, limits), pose(request.start, request.start_heading),
+  MapSearch search(space_for(prepared, request, options, limits), pose(request.start, request.start_heading),
                    pose(request.goal, request.goal_heading),
                    sampler_for(prepared, result.region.get(), request, options), options, limits);
   result.timings.prepare += watch.total_ms();

@@ -78,10 +78,25 @@ enum class Motion {
   turning,      ///< straight lines on which it turns evenly, also on the spot: OMPL's SE(2)
   dubins,       ///< forwards only, on arcs of the turning radius and straight lines
   reeds_shepp,  ///< the same, forwards and backwards
+  unicycle,     ///< driven by a speed and a turn rate; turns on the spot, too
+  car,          ///< driven by a speed and a steering angle, which bounds the curvature
 };
+
+/// True for a robot that is planned for by its controls (Motion::unicycle and Motion::car) and not by the poses between
+/// which it can move.
+inline bool is_driven(Motion motion) {
+  return motion == Motion::unicycle || motion == Motion::car;
+}
 
 /// @throws RequestError for an unknown word; the text lists the known ones.
 Motion motion_from_string(const std::string& word);
+
+/// What a driven robot is told to do for a while: it moves along an arc, a straight line, or turns on the spot.
+struct Control {
+  double speed = 0.0;      ///< map units per second; negative backwards
+  double turn_rate = 0.0;  ///< radians per second, from the map's x axis towards its y axis
+  double duration = 0.0;   ///< seconds
+};
 
 /// Lets another thread end a search. Copies share one flag, and a flag that was raised stays up: one token, one search.
 class CancelToken {
@@ -106,9 +121,12 @@ struct PlanRequest {
   /// The robot's outline in its own frame, map units; its reference point, the origin, must lie inside or on it.
   std::optional<Polygon> outline{};
   Motion motion = Motion::plane;  ///< how the robot moves
-  double turning_radius = 0.0;    ///< tightest one, map units; for Motion::dubins and Motion::reeds_shepp
+  double turning_radius = 0.0;    ///< tightest one, map units; for Motion::dubins, Motion::reeds_shepp and Motion::car
   double start_heading = 0.0;     ///< radians from the map's x axis towards its y axis; not for Motion::plane
   double goal_heading = 0.0;      ///< the same
+  double speed = 0.0;             ///< greatest one forwards, map units per second; for Motion::unicycle and Motion::car
+  double reverse_speed = 0.0;     ///< greatest one backwards; 0 for a robot that only drives forwards
+  double turn_rate = 0.0;         ///< greatest one, radians per second; for Motion::unicycle
 };
 
 /// How to plan.
@@ -119,8 +137,17 @@ struct PlanOptions {
   double range = 0.0;           ///< longest extension of the tree, map units; 0 chooses by the map's clearance
   double goal_bias = 0.05;      ///< share of iterations that aim at the goal (RRT and RRT*)
   double goal_tolerance = 0.0;  ///< the path may end this far from the goal, map units; 0 ends exactly there
-  Stop stop = Stop::first;      ///< when to stop
-  /// For Stop::factor. The reference is the shortest grid path of the reference point, straightened by line of sight.
+  /// Radians: the path of a driven robot may end with its heading this far off goal_heading; π for any heading. Such a
+  /// robot ends nowhere exactly: it needs a goal_tolerance too.
+  double heading_tolerance = 0.25;
+  /// The distance to obstacles that the path shall keep where it can, map units, measured from the robot's reference
+  /// point as far as it can be from them at least: from a disc's edge, or the edge of the disc that an outline holds. 0
+  /// for no wish. Planners that shorten their path follow it; see clearance_weight and PlanResult::cost.
+  double clearance = 0.0;
+  double clearance_weight = 3.0;  ///< how many times its own length a way right along an obstacle costs in addition
+  Stop stop = Stop::first;        ///< when to stop
+  /// For Stop::factor. The reference is the shortest grid path of the reference point, straightened by line of sight;
+  /// with a clearance the cheapest one.
   double cost_factor = 1.05;
   double time_limit = 5.0;  ///< seconds of planning, prediction not counted
   /// Most iterations of the planner; no limit by default.
@@ -165,14 +192,21 @@ struct PlanResult {
   /// true curve, between which no point of the robot moves farther than about a pixel.
   std::vector<Eigen::Vector2d> path;
   std::vector<double> headings;  ///< radians in [-π, π), one for each point of the path; empty in the plane
+  /// What drives a driven robot along the path, one after the other from the start; empty for the others.
+  std::vector<Control> controls;
+  /// From the path's end to the goal, map units, and to goal_heading, radians; 0 where the path ends exactly there.
+  double goal_distance = std::numeric_limits<double>::infinity();
+  double goal_turn = std::numeric_limits<double>::infinity();
   /// Length of the path, map units: of its straight lines and arcs. For Motion::turning plus the angle that the robot
-  /// turns times the distance from its reference point to its farthest one (at least a pixel).
+  /// turns times the distance from its reference point to its farthest one (at least a pixel). With
+  /// PlanOptions::clearance d plus ∫ clearance_weight · max(0, 1 − c/d)² ds, where c is the clearance, see unit_cost().
+  /// For a driven robot the seconds that its controls take.
   double cost = std::numeric_limits<double>::infinity();
   std::size_t iterations = 0;                     ///< iterations of the planner
   std::size_t nodes = 0;                          ///< nodes in its tree
   std::size_t motion_checks = 0;                  ///< motions that were checked for collisions
   DrawCounts draws{};                             ///< samples drawn from the region and uniformly
-  std::vector<CostStep> cost_history;             ///< strictly falling costs (RRT*)
+  std::vector<CostStep> cost_history;             ///< strictly falling costs (RRT*, SST)
   std::vector<TreeEdge> tree;                     ///< only with PlanOptions::keep_tree; straight, also for arcs
   std::shared_ptr<const PromisingRegion> region;  ///< the region that was used; on large maps in larger pixels
   std::string predict_error;  ///< why the plan was made unguided, see OnPredictError; empty when nothing failed

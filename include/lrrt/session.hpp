@@ -46,7 +46,8 @@ class Session {
 
   /// Plans from where the robot is now to the goal of the last query, along the path of the last result as far as it is
   /// still free: ways to that path, and around what stands on it since, are planned near by, unguided, by RRT-Connect
-  /// (RRT where the robot only drives forwards). Where there is no such path, or a way near by is not found, plans as
+  /// (RRT where the robot only drives forwards). Where there is no such path, a way near by is not found, or the robot
+  /// is driven (Motion::unicycle, Motion::car) or shall keep a clearance, plans as
   /// plan() does. PlanResult::reused tells how much was kept. A path that became longer than it would have to be is
   /// kept, too; plan() looks anew.
   /// @param start map units. @param heading radians.

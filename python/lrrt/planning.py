@@ -77,6 +77,12 @@ def plan(
     start_heading: float = 0.0,
     goal_heading: float = 0.0,
     simplify: bool = False,
+    speed: float = 0.0,
+    reverse_speed: float = 0.0,
+    turn_rate: float = 0.0,
+    heading_tolerance: float = 0.25,
+    clearance: float = 0.0,
+    clearance_weight: float = 3.0,
 ) -> PlanResult:
     """Plans a path from start to goal, guided by the promising region that a network marks.
 
@@ -117,10 +123,22 @@ def plan(
             also on the spot; ``"dubins"``, forwards on arcs and straight lines; ``"reeds_shepp"``, the same forwards
             and backwards. All but the plane fill ``result.headings``; the cost is then the length of the arcs and
             lines, for ``"turning"`` plus the angle turned times the distance to the robot's farthest corner.
-        turning_radius: the tightest one, for ``"dubins"`` and ``"reeds_shepp"``.
+            ``"unicycle"`` and ``"car"`` are driven by controls, which fill ``result.controls``: they need a planner of
+            ``control_planner_names()``, a ``speed`` and a ``goal_tolerance``; the cost is the time that the controls
+            take, seconds.
+        turning_radius: the tightest one, for ``"dubins"``, ``"reeds_shepp"`` and ``"car"``.
         start_heading: radians from the map's x axis towards its y axis.
         goal_heading: the same.
         simplify: shorten the path at the end, within what is left of the time limit.
+        speed: the greatest one forwards, map units per second; for ``"unicycle"`` and ``"car"``.
+        reverse_speed: the greatest one backwards; 0 for a robot that only drives forwards.
+        turn_rate: the greatest one, radians per second; for ``"unicycle"``.
+        heading_tolerance: a unicycle or a car may end with its heading this far off ``goal_heading``, radians; pi for
+            any heading. ``result.goal_distance`` and ``result.goal_turn`` tell how far off it is.
+        clearance: the distance to obstacles that the path shall keep where it can; 0 for no wish. Measured from the
+            robot's edge: that of its disc, or of the disc that its outline holds. What comes nearer costs more, so
+            planners that shorten their path (``stop="limit"``) avoid it. Not for ``"unicycle"`` and ``"car"``.
+        clearance_weight: how many times its own length a way right along an obstacle costs in addition.
 
     Raises:
         RequestError: an option is out of its range, a coordinate is not finite, the robot cannot move as asked, or both
@@ -152,6 +170,12 @@ def plan(
         turning_radius=turning_radius,
         simplify=simplify,
         on_predict_error=on_predict_error,
+        speed=speed,
+        reverse_speed=reverse_speed,
+        turn_rate=turn_rate,
+        heading_tolerance=heading_tolerance,
+        clearance=clearance,
+        clearance_weight=clearance_weight,
     )
     return _core.plan(settings, predictor, map, as_point(start), as_point(goal), start_heading, goal_heading, cancel)
 

@@ -5,6 +5,7 @@
 
 #include "bindings.hpp"
 #include "lrrt/error.hpp"
+#include "lrrt/ompl/control_planners.hpp"
 #include "lrrt/ompl/planners.hpp"
 #include "lrrt/planner.hpp"
 #include "lrrt/session.hpp"
@@ -52,12 +53,18 @@ struct Settings {
   std::optional<Polygon> outline;
   Motion motion = Motion::plane;
   double turning_radius = 0.0;
+  double speed = 0.0;
+  double reverse_speed = 0.0;
+  double turn_rate = 0.0;
 
   PlanRequest robot_on(const OccupancyMap& map) const {
     PlanRequest request{map, map.center({0, 0}), map.center({0, 0}), radius, unknown};
     request.outline = outline;
     request.motion = motion;
     request.turning_radius = turning_radius;
+    request.speed = speed;
+    request.reverse_speed = reverse_speed;
+    request.turn_rate = turn_rate;
     return request;
   }
 };
@@ -67,7 +74,9 @@ Settings settings(const std::string& planner, const std::string& strategy, doubl
                   double goal_bias, double goal_tolerance, double radius, const std::string& unknown,
                   std::uint64_t seed, bool keep_tree, const std::string& neighbors,
                   const std::optional<std::vector<Eigen::Vector2d>>& outline, const std::string& motion,
-                  double turning_radius, bool simplify, const std::string& on_predict_error) {
+                  double turning_radius, bool simplify, const std::string& on_predict_error, double speed,
+                  double reverse_speed, double turn_rate, double heading_tolerance, double clearance,
+                  double clearance_weight) {
   Settings result;
   PlanOptions& options = result.options;
   options.planner = planner;
@@ -90,6 +99,12 @@ Settings settings(const std::string& planner, const std::string& strategy, doubl
   if (outline) result.outline.emplace(*outline);
   result.motion = motion_from_string(motion);
   result.turning_radius = turning_radius;
+  result.speed = speed;
+  result.reverse_speed = reverse_speed;
+  result.turn_rate = turn_rate;
+  options.heading_tolerance = heading_tolerance;
+  options.clearance = clearance;
+  options.clearance_weight = clearance_weight;
   return result;
 }
 
@@ -113,6 +128,13 @@ py::array_t<double> points_array(const std::vector<Eigen::Vector2d>& points) {
   flat.reserve(2 * points.size());
   for (const Eigen::Vector2d& p : points) flat.insert(flat.end(), {p.x(), p.y()});
   return to_array(std::move(flat), {static_cast<py::ssize_t>(points.size()), 2});
+}
+
+py::array_t<double> controls_array(const PlanResult& result) {
+  std::vector<double> flat;
+  flat.reserve(3 * result.controls.size());
+  for (const Control& c : result.controls) flat.insert(flat.end(), {c.speed, c.turn_rate, c.duration});
+  return to_array(std::move(flat), {static_cast<py::ssize_t>(result.controls.size()), 3});
 }
 
 py::array_t<double> history_array(const PlanResult& result) {
@@ -164,7 +186,17 @@ void bind_result(py::module_& module) {
           "headings",
           [](const PlanResult& r) { return to_array(r.headings, {static_cast<py::ssize_t>(r.headings.size())}); },
           "(N,) float64, radians in [-pi, pi) from the map's x axis towards its y axis; (0,) in the plane.")
-      .def_readonly("cost", &PlanResult::cost, "Length of the path, map units, see plan(); inf unless solved.")
+      .def_property_readonly(
+          "controls", &controls_array,
+          "(K, 3) float64: speed (map units per second, negative backwards), turn rate (radians per second) and "
+          "duration (seconds) of what drives a unicycle or a car along the path; (0, 3) for other motions.")
+      .def_readonly("goal_distance", &PlanResult::goal_distance,
+                    "From the path's end to the goal, map units; inf unless solved.")
+      .def_readonly("goal_turn", &PlanResult::goal_turn,
+                    "From the heading at the path's end to goal_heading, radians; inf unless solved.")
+      .def_readonly("cost", &PlanResult::cost,
+                    "Length of the path, map units, or the seconds that its controls take, see plan(); inf unless "
+                    "solved.")
       .def_readonly("iterations", &PlanResult::iterations, "Iterations of the planner.")
       .def_readonly("nodes", &PlanResult::nodes, "Nodes in the planner's tree.")
       .def_readonly("motion_checks", &PlanResult::motion_checks, "Motions that were checked for collisions.")
@@ -201,7 +233,10 @@ void bind_settings(py::module_& module) {
            py::arg("goal_tolerance") = defaults.goal_tolerance, py::arg("radius") = 0.0,
            py::arg("unknown") = "occupied", py::arg("seed") = defaults.seed, py::arg("keep_tree") = false,
            py::arg("neighbors") = "grid", py::arg("outline") = py::none(), py::arg("motion") = "plane",
-           py::arg("turning_radius") = 0.0, py::arg("simplify") = false, py::arg("on_predict_error") = "raise");
+           py::arg("turning_radius") = 0.0, py::arg("simplify") = false, py::arg("on_predict_error") = "raise",
+           py::arg("speed") = 0.0, py::arg("reverse_speed") = 0.0, py::arg("turn_rate") = 0.0,
+           py::arg("heading_tolerance") = defaults.heading_tolerance, py::arg("clearance") = defaults.clearance,
+           py::arg("clearance_weight") = defaults.clearance_weight);
 }
 
 void bind_session(py::module_& module) {
@@ -248,6 +283,8 @@ void bind_planner(py::module_& module) {
       .def_property_readonly("cancelled", &CancelToken::cancelled, "True once cancel() was called.");
   bind_result(module);
   module.def("planner_names", &planner_names, "Names that plan() accepts as `planner`.");
+  module.def("control_planner_names", &control_planner_names,
+             "Those of them that plan() accepts for motion='unicycle' and 'car'.");
   bind_settings(module);
   module.def("plan", &plan, py::arg("settings"), py::arg("predictor"), py::arg("map"), py::arg("start"),
              py::arg("goal"), py::arg("start_heading"), py::arg("goal_heading"), py::arg("cancel"),

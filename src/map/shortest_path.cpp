@@ -86,8 +86,7 @@ std::vector<float> unit_costs(const std::vector<float>& distances, const Clearan
   if (is_plain(clearance)) return {};
   std::vector<float> costs = distances;
   for (float& value : costs) {
-    const double lack = std::max(0.0, 1.0 - std::max(0.0, value - 1.0) / clearance.distance);
-    value = static_cast<float>(1.0 + clearance.weight * lack * lack);
+    value = static_cast<float>(unit_cost(value, clearance));
   }
   return costs;
 }
@@ -110,6 +109,12 @@ Eigen::Vector2d middle(Pixel p) {
 }
 
 }  // namespace
+
+double unit_cost(double distance, const ClearanceCost& clearance) {
+  if (is_plain(clearance)) return 1.0;
+  const double lack = std::max(0.0, 1.0 - std::max(0.0, distance - 1.0) / clearance.distance);
+  return 1.0 + clearance.weight * lack * lack;
+}
 
 std::vector<Pixel> shortest_path(const OccupancyMap& map, Pixel start, Pixel goal, const ClearanceCost& clearance) {
   check(clearance);

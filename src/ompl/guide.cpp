@@ -14,13 +14,16 @@
 #include <utility>
 
 #include "lrrt/error.hpp"
+#include "lrrt/ompl/drive_space.hpp"
 #include "lrrt/ompl/guided_objective.hpp"
+#include "lrrt/ompl/guided_propagation.hpp"
 #include "lrrt/ompl/suitable_range.hpp"
 
 namespace lrrt {
 namespace {
 
 namespace ob = ompl::base;
+namespace oc = ompl::control;
 
 const std::map<std::string, Growth>& growths() {
   static const std::map<std::string, Growth> table = {
@@ -91,6 +94,25 @@ std::shared_ptr<const OccupancyMap> map_of(const PromisingRegion& region,
   const int factor = region.coarseness() / map->map().coarseness();
   if (factor > 1) return std::make_shared<const OccupancyMap>(map->map().coarsened(factor));
   return {map, &map->map()};
+}
+
+/// The greatest length, map units, of a way to the goal itself that begins with a path of some cost; infinite where the
+/// cost tells nothing of it.
+struct LengthBound {
+  double per_cost = std::numeric_limits<double>::infinity();
+  double slack = 0.0;
+
+  double operator()(ob::Cost cost) const { return per_cost * cost.value() + slack; }
+};
+
+LengthBound length_bound(const ob::ProblemDefinition& problem, const ob::OptimizationObjective& objective) {
+  const auto* duration = dynamic_cast<const DurationObjective*>(&objective);
+  const auto* poses = dynamic_cast<const PoseGoal*>(problem.getGoal().get());
+  if (duration != nullptr && poses != nullptr && problem.getStartStateCount() == 1) {
+    return {duration->top_speed(), poses->tolerance()};
+  }
+  if (cost_is_length(problem, objective)) return {1.0, problem.getGoal()->as<ob::GoalState>()->getThreshold()};
+  return {};
 }
 
 void check(const ob::Planner& planner) {
@@ -168,14 +190,15 @@ std::shared_ptr<GuidedSource> guide(ob::Planner& planner, MapSampler sampler,
     return std::make_shared<GuidedValidStateSampler>(information, source);
   });
   si->setMotionValidator(std::make_shared<ObservingMotionValidator>(si.get(), si->getMotionValidator(), source));
+  if (auto* controlled = dynamic_cast<oc::SpaceInformation*>(si.get())) observe_propagation(*controlled, source);
   ob::OptimizationObjectivePtr objective = problem->getOptimizationObjective();
   if (!objective) objective = std::make_shared<ob::PathLengthOptimizationObjective>(si);
-  const bool informed = cost_is_length(*problem, *objective);
-  problem->setOptimizationObjective(std::make_shared<GuidedObjective>(objective, source, informed));
+  problem->setOptimizationObjective(
+      std::make_shared<GuidedObjective>(objective, source, cost_is_length(*problem, *objective)));
   problem->setIntermediateSolutionCallback(
-      [source, informed, theirs = problem->getIntermediateSolutionCallback()](
+      [source, most_length = length_bound(*problem, *objective), theirs = problem->getIntermediateSolutionCallback()](
           const ob::Planner* solver, const std::vector<const ob::State*>& states, const ob::Cost cost) {
-        source->improved(states, informed ? cost.value() : std::numeric_limits<double>::infinity());
+        source->improved(states, most_length(cost));
         if (theirs) theirs(solver, states, cost);
       });
   return source;

@@ -3,14 +3,15 @@
 
 #include <ompl/base/PlannerData.h>
 #include <ompl/base/goals/GoalState.h>
-#include <ompl/base/objectives/PathLengthOptimizationObjective.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <tuple>
 
 #include "lrrt/error.hpp"
 #include "lrrt/map/shortest_path.hpp"
+#include "lrrt/ompl/control_planners.hpp"
 #include "lrrt/ompl/guide.hpp"
 #include "lrrt/ompl/shorten.hpp"
 
@@ -18,6 +19,7 @@ namespace lrrt {
 namespace {
 
 namespace ob = ompl::base;
+namespace oc = ompl::control;
 namespace og = ompl::geometric;
 
 /// Straightens a pixel path by line of sight between the exact ends. @return its length, map units.
@@ -38,17 +40,13 @@ std::uint32_t planner_seed(std::uint64_t seed) {
 
 MapSearch::MapSearch(SearchSpace space, const Pose2& start, const Pose2& goal, MapSampler sampler,
                      const PlanOptions& options, std::shared_ptr<SearchLimits> limits)
-    : space_(std::move(space)), options_(options), limits_(std::move(limits)) {
+    : space_(std::move(space)), goal_(goal), options_(options), limits_(std::move(limits)) {
   problem_ = std::make_shared<ob::ProblemDefinition>(space_.si);
-  problem_->setStartAndGoalStates(state_at(start), state_at(goal),
-                                  std::max(options_.goal_tolerance, std::numeric_limits<double>::epsilon()));
-  const auto objective = std::make_shared<ob::PathLengthOptimizationObjective>(space_.si);
-  objective->setCostThreshold(target_cost());
-  problem_->setOptimizationObjective(objective);
-
-  planner_ = make_planner(
-      options_.planner, space_.si,
-      {options_.range, options_.goal_bias, planner_seed(options_.seed), options_.neighbors == Neighbors::grid});
+  problem_->addStartState(state_at(start));
+  problem_->setGoal(goal_region());
+  space_.objective->setCostThreshold(target_cost());
+  problem_->setOptimizationObjective(space_.objective);
+  planner_ = planner();
   planner_.planner->setProblemDefinition(problem_);
   source_ = guide(*planner_.planner, std::move(sampler), space_.projection);
   source_->end_with([this] { return limits_->interrupted_at_motion(); }, problem_->getStartState(0));
@@ -60,6 +58,24 @@ ob::ScopedState<> MapSearch::state_at(const Pose2& pose) const {
   space_.projection->write({pose.x, pose.y}, state.get());
   if (space_.projection->has_heading()) space_.projection->write_heading(pose.yaw, state.get());
   return state;
+}
+
+ob::GoalPtr MapSearch::goal_region() const {
+  if (space_.driver) {
+    return std::make_shared<PoseGoal>(space_.si, goal_, options_.goal_tolerance, options_.heading_tolerance,
+                                      planner_seed(options_.seed));
+  }
+  auto goal = std::make_shared<ob::GoalState>(space_.si);
+  goal->setState(state_at(goal_));
+  goal->setThreshold(std::max(options_.goal_tolerance, std::numeric_limits<double>::epsilon()));
+  return goal;
+}
+
+MapPlanner MapSearch::planner() const {
+  const PlannerSettings settings{options_.range, options_.goal_bias, planner_seed(options_.seed),
+                                 options_.neighbors == Neighbors::grid};
+  if (!space_.driver) return make_planner(options_.planner, space_.si, settings);
+  return make_control_planner(options_.planner, std::static_pointer_cast<oc::SpaceInformation>(space_.si), settings);
 }
 
 ob::Cost MapSearch::target_cost() const {
@@ -77,23 +93,44 @@ ob::Cost MapSearch::target_cost() const {
 double MapSearch::reference_cost() const {
   const OccupancyMap& map = space_.map->map();
   const Eigen::Vector2d start = space_.projection->read(problem_->getStartState(0));
-  const Eigen::Vector2d goal = space_.projection->read(problem_->getGoal()->as<ob::GoalState>()->getState());
+  const Eigen::Vector2d goal(goal_.x, goal_.y);
+  if (options_.clearance > 0.0) return clearance_cost(start, goal);
   const std::vector<Pixel> path =
       shortest_path(map, OccupancyMap::pixel_of(map.to_pixel(start)), OccupancyMap::pixel_of(map.to_pixel(goal)));
-  return line_of_sight_length(*space_.map, path, start, goal);
+  const double length = line_of_sight_length(*space_.map, path, start, goal);
+  return space_.driver ? length / space_.driver->drive.top_speed() : length;
+}
+
+double MapSearch::clearance_cost(const Eigen::Vector2d& start, const Eigen::Vector2d& goal) const {
+  const OccupancyMap& map = space_.map->map();
+  const Eigen::Vector2d from = map.to_pixel(start);
+  const Eigen::Vector2d to = map.to_pixel(goal);
+  const ClearanceCost clearance{options_.clearance / map.resolution(), options_.clearance_weight};
+  std::vector<Eigen::Vector2d> points =
+      smoothed(map, shortest_path(map, OccupancyMap::pixel_of(from), OccupancyMap::pixel_of(to), clearance), clearance);
+  points.front() = from;
+  points.push_back(to);
+  const ClearanceSurcharge surcharge(map, space_.map->field(), clearance);
+  double cost = path_length(points) * map.resolution();
+  for (std::size_t i = 1; i < points.size(); ++i) cost += surcharge.along(points[i - 1], points[i]);
+  return cost;
 }
 
 void MapSearch::run(PlanResult& result) {
   record_costs(result);
   limits_->restart();
   // OMPL's planners ask once an iteration, so the condition also counts them.
-  const ob::PlannerTerminationCondition stop([this] { return limits_->next_iteration(); });
+  const ob::PlannerTerminationCondition stop([this] {
+    if (planner_.announce) planner_.announce();
+    return limits_->next_iteration();
+  });
   const ob::PlannerStatus status = planner_.planner->solve(stop);
   result.timings.plan = limits_->elapsed_ms();
   result.iterations = limits_->iterations();
   result.nodes = planner_.nodes();
   const ob::MotionValidator& checked = *problem_->getSpaceInformation()->getMotionValidator();
-  result.motion_checks = checked.getValidMotionCount() + checked.getInvalidMotionCount();
+  result.motion_checks = space_.driver ? space_.driver->propagator->checks()
+                                       : checked.getValidMotionCount() + checked.getInvalidMotionCount();
   result.draws = source_->counts();
   if (problem_->hasExactSolution()) {
     read_path(result);
@@ -115,39 +152,29 @@ void MapSearch::record_costs(PlanResult& result) {
       });
 }
 
-std::optional<Trace> MapSearch::traced(og::PathGeometric& path) const {
-  const std::vector<ob::State*>& states = path.getStates();
-  Trace trace;
-  trace.points.push_back(space_.projection->read(states.front()));
-  if (space_.projection->has_heading()) trace.headings.push_back(space_.projection->read_heading(states.front()));
-  for (std::size_t i = 1; i < states.size(); ++i) {
-    if (!space_.follow(states[i - 1], states[i], trace)) return std::nullopt;
-  }
-  return trace;
-}
-
-std::optional<Trace> MapSearch::shortened(og::PathGeometric& path) const {
+std::optional<Trace> MapSearch::shortened(const og::PathGeometric& path) const {
   og::PathGeometric shorter(path);
   const ob::PlannerTerminationCondition stop([this] { return limits_->interrupted(); });
   shorten(shorter, stop, planner_seed(options_.seed));
-  if (!(shorter.length() < path.length())) return std::nullopt;
-  std::optional<Trace> trace = traced(shorter);
-  if (trace) path = shorter;
-  return trace;
+  if (!(shorter.cost(space_.objective).value() < path.cost(space_.objective).value())) return std::nullopt;
+  return space_.tell(shorter);
 }
 
 void MapSearch::read_path(PlanResult& result) const {
-  auto& path = *problem_->getSolutionPath()->as<og::PathGeometric>();
+  const ob::Path& path = *problem_->getSolutionPath();
   std::optional<Trace> trace;
-  if (options_.simplify) trace = shortened(path);
-  if (!trace) trace = traced(path);
+  if (options_.simplify) trace = shortened(*path.as<og::PathGeometric>());
+  if (!trace) trace = space_.tell(path);
   if (!trace) {
     throw Error("OMPL's planner " + options_.planner + " returned a path that is not free: choose another planner");
   }
   result.status = PlanStatus::solved;
   result.path = std::move(trace->points);
   result.headings = std::move(trace->headings);
-  result.cost = path.length();
+  result.controls = std::move(trace->controls);
+  result.cost = trace->cost;
+  result.goal_distance = (result.path.back() - Eigen::Vector2d(goal_.x, goal_.y)).norm();
+  result.goal_turn = result.headings.empty() ? 0.0 : std::abs(wrapped_angle(result.headings.back() - goal_.yaw));
   result.timings.plan = limits_->elapsed_ms();
   const bool better = result.cost_history.empty() || result.cost < result.cost_history.back().cost;
   if (better) result.cost_history.push_back({result.timings.plan, limits_->iterations(), result.cost});

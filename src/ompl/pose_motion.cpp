@@ -44,12 +44,11 @@ PoseMotion::PoseMotion(const Pose2& from, const Pose2& to, double reach)
       speed_(distance(from, to) + reach * std::abs(turn_)),
       end_(from) {}
 
-Pose2 PoseMotion::along(const Piece& piece, double length) {
-  const double half_turn = 0.5 * piece.curvature * length;
+Pose2 along_arc(const Pose2& from, double length, double turn) {
+  const double half_turn = 0.5 * turn;
   const double chord = half_turn == 0.0 ? length : length * std::sin(half_turn) / half_turn;
-  const double direction = piece.from.yaw + half_turn;
-  return {piece.from.x + chord * std::cos(direction), piece.from.y + chord * std::sin(direction),
-          piece.from.yaw + 2.0 * half_turn};
+  const double direction = from.yaw + half_turn;
+  return {from.x + chord * std::cos(direction), from.y + chord * std::sin(direction), from.yaw + turn};
 }
 
 void PoseMotion::append(double length, double curvature) {
@@ -57,7 +56,7 @@ void PoseMotion::append(double length, double curvature) {
   Piece& piece = pieces_.at(count_++);
   piece = {end_, length, curvature, speed_, 1.0 + reach_ * std::abs(curvature)};
   speed_ += piece.pace * std::abs(length);
-  end_ = along(piece, length);
+  end_ = along_arc(end_, length, curvature * length);
 }
 
 PoseMotion PoseMotion::arc(const Pose2& from, const Pose2& to, double reach) {
@@ -81,7 +80,8 @@ Pose2 PoseMotion::at(double t) const {
   if (t >= 1.0) return to_;
   if (count_ == 0) return {from_.x + t * (to_.x - from_.x), from_.y + t * (to_.y - from_.y), from_.yaw + t * turn_};
   const Piece& piece = piece_at(t * speed_);
-  return along(piece, std::copysign((t * speed_ - piece.begin) / piece.pace, piece.length));
+  const double length = std::copysign((t * speed_ - piece.begin) / piece.pace, piece.length);
+  return along_arc(piece.from, length, piece.curvature * length);
 }
 
 std::vector<double> PoseMotion::moments(double spacing) const {

@@ -103,44 +103,4 @@ std::vector<std::uint8_t> flood(const OccupancyMap& map, Pixel from) {
   return reached;
 }
 
-bool overlaps_blocked(const OccupancyMap& map, const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d& at,
-                      double heading) {
-  std::vector<Eigen::Vector2d> corners;
-  for (const Eigen::Vector2d& v : outline) {
-    const Eigen::Vector2d turned(std::cos(heading) * v.x() - std::sin(heading) * v.y(),
-                                 std::sin(heading) * v.x() + std::cos(heading) * v.y());
-    corners.push_back(map.to_pixel(at + turned));
-  }
-  Eigen::Vector2d low = corners.front();
-  Eigen::Vector2d high = corners.front();
-  for (const Eigen::Vector2d& c : corners) {
-    low = low.cwiseMin(c);
-    high = high.cwiseMax(c);
-  }
-  constexpr double hair = 1e-7;
-  const auto apart = [&](Pixel p, const Eigen::Vector2d& axis) {
-    double least = std::numeric_limits<double>::infinity();
-    double most = -least;
-    for (const Eigen::Vector2d& c : corners) {
-      least = std::min(least, axis.dot(c));
-      most = std::max(most, axis.dot(c));
-    }
-    const double middle = axis.dot(Eigen::Vector2d(p.c + 0.5, p.r + 0.5));
-    const double half = 0.5 * axis.lpNorm<1>();
-    return least > middle + half - hair || most < middle - half + hair;
-  };
-  for (int r = static_cast<int>(std::floor(low.y())); r <= static_cast<int>(std::floor(high.y())); ++r) {
-    for (int c = static_cast<int>(std::floor(low.x())); c <= static_cast<int>(std::floor(high.x())); ++c) {
-      if (map.is_free({c, r})) continue;
-      bool separated = apart({c, r}, {1.0, 0.0}) || apart({c, r}, {0.0, 1.0});
-      for (std::size_t i = 0; i < corners.size() && !separated; ++i) {
-        const Eigen::Vector2d edge = (corners[(i + 1) % corners.size()] - corners[i]).normalized();
-        separated = apart({c, r}, {-edge.y(), edge.x()});
-      }
-      if (!separated) return true;
-    }
-  }
-  return false;
-}
-
 }  // namespace lrrt::test

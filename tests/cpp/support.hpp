@@ -23,12 +23,6 @@ Eigen::Vector2d random_free_point(const OccupancyMap& map, Random& random);
 /// edge. Touching a pixel's border without entering it does not count.
 bool crosses_blocked(const OccupancyMap& map, const Eigen::Vector2d& from, const Eigen::Vector2d& to);
 
-/// Independent of the library's checks: true when a polygon at a pose reaches into a pixel that is not free, or off the
-/// map, by more than a hair. Polygon against pixel by separating axes for every triangle of a fan, so the polygon has
-/// to be convex.
-bool overlaps_blocked(const OccupancyMap& map, const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d& at,
-                      double heading);
-
 /// Independent flood fill: the pixels that can be reached from one in steps to the four neighbours, 1 or 0 for each.
 std::vector<std::uint8_t> flood(const OccupancyMap& map, Pixel from);
 

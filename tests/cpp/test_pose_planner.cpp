@@ -14,6 +14,7 @@
 #include "lrrt/ompl/pose_validity.hpp"
 #include "lrrt/planner.hpp"
 #include "lrrt/predict/grid_predictors.hpp"
+#include "pose_support.hpp"
 #include "support.hpp"
 
 namespace lrrt {
@@ -21,11 +22,12 @@ namespace {
 
 namespace ob = ompl::base;
 
-constexpr double pi = 3.141592653589793;
+using test::angle_between;
+using test::overlaps_blocked;
+using test::random_pose;
+using test::random_room;
 
-double angle_between(double a, double b) {
-  return std::abs(std::remainder(a - b, 2.0 * pi));
-}
+constexpr double pi = 3.141592653589793;
 
 /// A map of blocks in metres with an origin and a yaw, or in pixels, and two poses on it at which the robot fits.
 struct Query {
@@ -42,35 +44,6 @@ PlanRequest request_of(const Query& query, const Polygon& robot, Motion motion, 
   request.start_heading = query.start.yaw;
   request.goal_heading = query.goal.yaw;
   return request;
-}
-
-/// A pose at which the robot fits; anything after many tries.
-Pose2 random_pose(const OccupancyMap& map, const Polygon& robot, Random& random) {
-  Pose2 pose;
-  for (int i = 0; i < 200; ++i) {
-    const Eigen::Vector2d pixel(random.uniform(0, map.width()), random.uniform(0, map.height()));
-    const Eigen::Vector2d at = map.to_world(pixel);
-    pose = {at.x(), at.y(), random.uniform(-pi, pi)};
-    if (!test::overlaps_blocked(map, robot.vertices(), at, pose.yaw)) break;
-  }
-  return pose;
-}
-
-/// Not too crowded a map, in metres every second time.
-OccupancyMap random_room(Random& random, bool metric) {
-  std::vector<Cell> cells(60 * 50, Cell::free);
-  const int blocks = 3 + static_cast<int>(random.index(6));
-  for (int i = 0; i < blocks; ++i) {
-    const int c0 = static_cast<int>(random.index(55));
-    const int r0 = static_cast<int>(random.index(45));
-    const int w = 2 + static_cast<int>(random.index(16));
-    const int h = 2 + static_cast<int>(random.index(16));
-    for (int r = r0; r < std::min(50, r0 + h); ++r) {
-      for (int c = c0; c < std::min(60, c0 + w); ++c) cells[static_cast<std::size_t>(r * 60 + c)] = Cell::occupied;
-    }
-  }
-  if (!metric) return {60, 50, std::move(cells)};
-  return {60, 50, std::move(cells), 0.05, {-3.0, 7.0, random.uniform(-pi, pi)}};
 }
 
 PlanOptions options_for(const std::string& planner, Strategy strategy) {

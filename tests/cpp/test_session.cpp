@@ -8,6 +8,7 @@
 #include "lrrt/map/footprint.hpp"
 #include "lrrt/predict/grid_predictors.hpp"
 #include "lrrt/session.hpp"
+#include "pose_support.hpp"
 #include "support.hpp"
 
 namespace lrrt {

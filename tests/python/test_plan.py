@@ -323,3 +323,71 @@ def test_parts_and_larger_pixels_of_a_map_keep_its_units() -> None:
         map_.coarsened(3)
     with pytest.raises(lrrt.MapError, match="inside the map"):
         map_.cropped(5, 5, 4, 4)
+
+
+def driven(pose: np.ndarray, controls: np.ndarray) -> np.ndarray:
+    """Where controls lead, by small steps."""
+    x, y, yaw = pose
+    for speed, turn_rate, duration in controls:
+        steps = 2000
+        angles = yaw + turn_rate * duration * (np.arange(steps) + 0.5) / steps
+        x += speed * duration * np.cos(angles).mean()
+        y += speed * duration * np.sin(angles).mean()
+        yaw += turn_rate * duration
+    return np.array([x, y, yaw])
+
+
+@pytest.mark.parametrize("planner", lrrt.control_planner_names())
+@pytest.mark.parametrize("motion", ["unicycle", "car"])
+def test_a_driven_robot_gets_controls(motion: str, planner: str) -> None:
+    limits = {"speed": 2.0, "reverse_speed": 1.0, "turn_rate": 0.6, "turning_radius": 3.0}
+    result = lrrt.plan(
+        OPEN,
+        (10, 10),
+        (50, 40),
+        strategy="uniform",
+        planner=planner,
+        outline=[(-1.0, -1.0), (3.0, -1.0), (3.0, 1.0), (-1.0, 1.0)],
+        motion=motion,
+        start_heading=0.5,
+        goal_heading=-2.0,
+        goal_tolerance=4.0,
+        heading_tolerance=0.8,
+        time_limit=20.0,
+        **limits,
+    )
+    assert result.solved
+    speeds, turn_rates, durations = result.controls.T
+    assert speeds.max() <= 2.0 + 1e-9 and speeds.min() >= -1.0 - 1e-9
+    if motion == "car":
+        assert (np.abs(turn_rates) * 3.0 <= np.abs(speeds) + 1e-9).all()
+    else:
+        assert np.abs(turn_rates).max() <= 0.6 + 1e-9
+    assert result.cost == pytest.approx(durations.sum())
+    end = driven(np.array([10, 10, 0.5]), result.controls)
+    np.testing.assert_allclose(end[:2], result.path[-1], atol=1e-5)
+    assert math.cos(end[2] - result.headings[-1]) == pytest.approx(1.0)
+    assert result.goal_distance == pytest.approx(math.hypot(end[0] - 50, end[1] - 40), abs=1e-5) and (
+        result.goal_distance <= 4.0
+    )
+    assert result.goal_turn <= 0.8
+
+
+def test_other_motions_have_no_controls() -> None:
+    result = lrrt.plan(OPEN, (10, 10), (50, 40), strategy="uniform")
+    assert result.controls.shape == (0, 3)
+    assert result.goal_distance == 0.0 and result.goal_turn == 0.0
+    with pytest.raises(lrrt.RequestError, match="SST"):
+        lrrt.plan(OPEN, (10, 10), (50, 40), strategy="uniform", motion="car", speed=1, turning_radius=3)
+
+
+def test_clearance_costs_and_keeps_away() -> None:
+    cells = np.zeros((40, 60), dtype=bool)
+    cells[18:22, 20:40] = True
+    m = lrrt.OccupancyMap.from_array(cells)
+    options = {"strategy": "uniform", "stop": "limit", "iteration_limit": 3000, "time_limit": 60.0}
+    near, far = (lrrt.plan(m, (5, 20), (55, 20), clearance=c, **options) for c in (0.0, 6.0))
+    assert oracle.length(far.path) > oracle.length(near.path)
+    assert far.cost > oracle.length(far.path) - 1e-9 and near.cost == pytest.approx(oracle.length(near.path))
+    with pytest.raises(lrrt.RequestError, match="clearance"):
+        lrrt.plan(m, (5, 20), (55, 20), clearance=-1.0)

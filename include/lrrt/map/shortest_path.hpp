@@ -15,6 +15,10 @@ struct ClearanceCost {
   double weight = 3.0;    ///< a step right at an obstacle costs 1 + weight times its length, falling to 1 at `distance`
 };
 
+/// What a unit of length costs where the nearest pixel that is not free is so many pixels away, from centre to centre:
+/// 1 + weight · max(0, 1 − max(0, distance − 1) / clearance.distance)².
+double unit_cost(double distance, const ClearanceCost& clearance);
+
 /// Cheapest path over the free pixels by A* (Hart, Nilsson, Raphael 1968): eight neighbours, and a diagonal step only
 /// where both pixels beside it are free, so that no corner is cut.
 /// @return pixels from start to goal, both included; empty when there is no path or an end is not free.

@@ -73,8 +73,10 @@ class GuidedSource {
   /// True for a state that a guided draw could give.
   bool promising(const ompl::base::State* state) const { return sampler_.promising(pixel_point(state)); }
   /// Tells the sampler that a motion is free, so that it can follow the tree.
-  void connected(const ompl::base::State* from, const ompl::base::State* to) {
-    sampler_.connected(pixel_point(from), pixel_point(to));
+  void connected(const ompl::base::State* from, const ompl::base::State* to) { connected(pixel_point(from), to); }
+  /// The same for a motion whose beginning is a point, pixel coordinates.
+  void connected(const Eigen::Vector2d& from, const ompl::base::State* to) {
+    sampler_.connected(from, pixel_point(to));
   }
   /// Tells the sampler of a better path.
   /// @param states its states in either order, with or without start and goal, as OMPL's planners report them.
@@ -82,9 +84,10 @@ class GuidedSource {
   void improved(const std::vector<const ompl::base::State*>& states, double length);
   /// How many states were guided and how many uniform.
   DrawCounts counts() const { return sampler_.counts(); }
+  /// Where a state stands, pixel coordinates.
+  Eigen::Vector2d pixel_point(const ompl::base::State* state) const { return map_->to_pixel(projection_->read(state)); }
 
  private:
-  Eigen::Vector2d pixel_point(const ompl::base::State* state) const { return map_->to_pixel(projection_->read(state)); }
   /// Moves a state to a point, pixel coordinates, and its other coordinates anywhere.
   void write(const Eigen::Vector2d& point, ompl::base::State* state, ompl::base::StateSampler& other);
   /// Moves a state whose position and heading are all to a point, pixel coordinates, and turns it anywhere.

@@ -30,17 +30,19 @@ class MapSearch {
 
  private:
   ompl::base::ScopedState<> state_at(const Pose2& pose) const;
+  ompl::base::GoalPtr goal_region() const;
+  MapPlanner planner() const;
   void record_costs(PlanResult& result);
   ompl::base::Cost target_cost() const;
   double reference_cost() const;
+  double clearance_cost(const Eigen::Vector2d& start, const Eigen::Vector2d& goal) const;
   void read_path(PlanResult& result) const;
   /// A path that is shorter and still free, if one was found in time.
-  std::optional<Trace> shortened(ompl::geometric::PathGeometric& path) const;
-  /// The path as it is handed out; nothing where a motion of it is not free.
-  std::optional<Trace> traced(ompl::geometric::PathGeometric& path) const;
+  std::optional<Trace> shortened(const ompl::geometric::PathGeometric& path) const;
   void read_tree(PlanResult& result) const;
 
   SearchSpace space_;
+  Pose2 goal_;
   PlanOptions options_;
   std::shared_ptr<SearchLimits> limits_;
   ompl::base::ProblemDefinitionPtr problem_;

@@ -22,6 +22,9 @@ struct PlannerSettings {
 struct MapPlanner {
   ompl::base::PlannerPtr planner;      ///< without a problem yet
   std::function<std::size_t()> nodes;  ///< number of nodes in the tree, trees or roadmap
+  /// To be called once an iteration where it is there: tells the problem of a better path, which a planner that keeps
+  /// silent about it has found since.
+  std::function<void()> announce{};
 };
 
 /// Names that make_planner() knows, as OMPL spells them. Two are missing because they take the process with them

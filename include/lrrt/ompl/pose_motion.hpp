@@ -13,6 +13,10 @@
 
 namespace lrrt {
 
+/// Where an arc ends, a straight line, or a turn on the spot.
+/// @param length map units; negative backwards. @param turn radians; positive from x towards y.
+Pose2 along_arc(const Pose2& from, double length, double turn);
+
 /// The motion between two poses: a straight line with an even turn, or up to five arcs and straight lines.
 ///
 /// Its parameter t runs from 0 to 1 at a pace at which the robot's farthest point could always be moved alike: on arcs,
@@ -51,7 +55,6 @@ class PoseMotion {
     double begin = 0.0;  ///< speed bound spent before this piece
     double pace = 1.0;   ///< speed bound spent per length
   };
-  static Pose2 along(const Piece& piece, double length);
   const Piece& piece_at(double spent) const;
 
   Pose2 from_;
