@@ -29,8 +29,11 @@ constexpr const char* footer =
     "  first path    milliseconds from the call to the first path, prediction and all else included\n"
     "  search        the planner's share of it\n"
     "  length        of the last path, divided by the exact shortest path\n"
-    "  clearance     mean distance from the last path to the nearest obstacle (grown by the radius), map units\n"
-    "  gain          the baseline's number divided by the row's, run by run; above 1 the row is better\n\n"
+    "  clearance     mean distance from the last path of the reference point to the nearest obstacle (grown by the\n"
+    "                radius), map units\n"
+    "  gain          the baseline's number divided by the row's, run by run; above 1 the row is better\n"
+    "  hard, easy    guided rows against unguided baselines: queries that cost the baseline more than 100 ms, and\n"
+    "                others; a failure costs the time it took, and queries that neither solved are left out\n\n"
     "Exit codes: 0 done, 2 bad input, 3 a replay differs, 130 interrupted.";
 
 void add_options(CLI::App& app, Request& request, bool& list) {
@@ -48,7 +51,9 @@ void add_options(CLI::App& app, Request& request, bool& list) {
   app.add_option("--seed", changes.seed, "Seed of the first run; the next run takes the next number")
       ->type_name("S")
       ->excludes(replay);
-  app.add_option("--maps", changes.maps, "Your own map files or folders in place of the suite's, 5 random queries each")
+  app.add_option(
+         "--maps", changes.maps,
+         "Your own map files or folders in place of the suite's, with what it says of the maps that it is given")
       ->type_name("PATH...")
       ->excludes(replay);
   app.add_option("--models", changes.models,

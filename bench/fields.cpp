@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace lrrt::bench {
@@ -141,6 +142,18 @@ std::vector<int> Fields::counts(const std::string& key, const std::vector<int>& 
   for (const double value : numbers(key, {}, rule)) {
     if (value != std::floor(value)) refuse(key, rule.expected);
     result.push_back(static_cast<int>(value));
+  }
+  return result;
+}
+
+std::vector<Eigen::Vector2d> Fields::points(const std::string& key) const {
+  constexpr NumberRule any{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::max(),
+                           "a list of points [x, y]"};
+  std::vector<Eigen::Vector2d> result;
+  if (!has(key)) return result;
+  for (const YAML::Node& node : items(key, any.expected)) {
+    if (!node.IsSequence() || node.size() != 2) refuse(key, any.expected);
+    result.emplace_back(number_in(node[0], key, any), number_in(node[1], key, any));
   }
   return result;
 }

@@ -3,6 +3,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -55,6 +56,8 @@ class Fields {
   std::vector<double> numbers(const std::string& key, const std::vector<double>& fallback,
                               const NumberRule& rule) const;
   std::vector<int> counts(const std::string& key, const std::vector<int>& fallback, const NumberRule& rule) const;
+  /// Points of the plane, a list of [x, y]; none when the key is missing.
+  std::vector<Eigen::Vector2d> points(const std::string& key) const;
   /// The mappings in a list; none when the key is missing.
   std::vector<Fields> children(const std::string& key) const;
 

@@ -3,13 +3,14 @@
 
 #include "lrrt/map/shortest_path.hpp"
 #include "lrrt/stopwatch.hpp"
+#include "robot.hpp"
 
 namespace lrrt::bench {
 
 PlanResult grid_search(const Problem& problem, const PlanSuite& suite) {
   PlanResult result;
   const Stopwatch watch;
-  const OccupancyMap map = planning_map(*problem.map, suite);
+  const OccupancyMap map = planning_map(problem, suite);
   result.timings.prepare = watch.total_ms();
   const std::vector<Pixel> pixels = shortest_path(map, OccupancyMap::pixel_of(map.to_pixel(problem.start)),
                                                   OccupancyMap::pixel_of(map.to_pixel(problem.goal)));

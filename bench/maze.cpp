@@ -5,7 +5,6 @@
 #include <array>
 
 #include "lrrt/error.hpp"
-#include "lrrt/map/components.hpp"
 
 namespace lrrt::bench {
 namespace {
@@ -201,13 +200,29 @@ Eigen::Vector2d drawn_center(const OccupancyMap& maze, Pixel block, int pixels) 
   return {margin + (block.c + 0.5) * side, margin + (block.r + 0.5) * side};
 }
 
-std::pair<Pixel, Pixel> farthest_pixels(const OccupancyMap& map) {
-  const Components components(map);
+int largest_component(const Components& components) {
   int largest = 0;
   for (int label = 1; label <= components.count(); ++label) {
     if (largest == 0 || components.area(label) > components.area(largest)) largest = label;
   }
   if (largest == 0) throw MapError("the map has no free pixel to start from");
+  return largest;
+}
+
+std::vector<Pixel> pixels_of(const Components& components, int label) {
+  const PixelBox& box = components.box(label);
+  std::vector<Pixel> pixels;
+  for (int r = box.r; r < box.r + box.height; ++r) {
+    for (int c = box.c; c < box.c + box.width; ++c) {
+      if (components.label({c, r}) == label) pixels.push_back({c, r});
+    }
+  }
+  return pixels;
+}
+
+std::pair<Pixel, Pixel> farthest_pixels(const OccupancyMap& map) {
+  const Components components(map);
+  const int largest = largest_component(components);
   const PixelBox& box = components.box(largest);
   Pixel origin{box.c, box.r};
   while (components.label(origin) != largest) ++origin.c;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "lrrt/map/components.hpp"
 #include "lrrt/map/occupancy_map.hpp"
 #include "lrrt/sampling/random.hpp"
 
@@ -36,6 +37,12 @@ OccupancyMap drawn(const OccupancyMap& maze, int pixels);
 
 /// Centre of a block of a maze in pixel coordinates of its picture.
 Eigen::Vector2d drawn_center(const OccupancyMap& maze, Pixel block, int pixels);
+
+/// Number of the largest component, the first of those. @throws MapError when no pixel is free.
+int largest_component(const Components& components);
+
+/// The pixels of a component, row by row.
+std::vector<Pixel> pixels_of(const Components& components, int label);
 
 /// The ends of a long way: the free pixel farthest from any one in the largest component, and the one farthest from it,
 /// counted in steps to the four neighbours. In a perfect maze, the longest way there is.

@@ -14,6 +14,8 @@
 #include "models.hpp"
 #include "problems.hpp"
 #include "reference.hpp"
+#include "replanning.hpp"
+#include "robot.hpp"
 
 namespace lrrt::bench {
 namespace {
@@ -23,7 +25,7 @@ class Optimum {
  public:
   double of(const Problem& problem, const PlanSuite& suite) {
     std::call_once(once_, [&] {
-      if (suite.reference) length_ = shortest_length(planning_map(*problem.map, suite), problem.start, problem.goal);
+      if (suite.reference) length_ = shortest_length(planning_map(problem, suite), problem.start, problem.goal);
     });
     return length_;
   }
@@ -68,7 +70,7 @@ void add_path(Json& json, const PlanResult& result, const PlanJob& job, double o
   json["first_length"] = first.cost;
   json["length"] = result.cost;
   json["optimum"] = number_or_null(optimum);
-  const Clearance clearance = clearance_of(planning_map(*job.problem->map, *job.suite), result.path);
+  const Clearance clearance = clearance_of(planning_map(*job.problem, *job.suite), result.path);
   json["clearance"] = {{"least", clearance.least}, {"mean", clearance.mean}};
   for (const int percent : within_percents) {
     const double target = optimum * (1.0 + percent / 100.0);
@@ -77,12 +79,22 @@ void add_path(Json& json, const PlanResult& result, const PlanJob& job, double o
   for (const CostStep& step : result.cost_history) json["history"].push_back({step.time, step.iteration, step.cost});
 }
 
+/// A place, with its heading where there are headings.
+Json pose_json(const Eigen::Vector2d& place, double heading, const PlanSuite& suite) {
+  Json json = {place.x(), place.y()};
+  if (suite.has_headings()) json.push_back(heading);
+  return json;
+}
+
 Json row_json(const PlanResult& result, const PlanJob& job, double optimum) {
+  const Problem& p = *job.problem;
   const bool by_clock = job.limited_by_id || result.status == PlanStatus::time_limit ||
                         result.timings.plan >= 1e3 * job.row.options.time_limit;
-  Json json = {{"group", job.problem->group},
-               {"map", job.problem->map_name},
-               {"query", job.problem->query},
+  Json json = {{"group", p.group},
+               {"map", p.map_name},
+               {"query", p.query},
+               {"start", pose_json(p.start, p.start_heading, *job.suite)},
+               {"goal", pose_json(p.goal, p.goal_heading, *job.suite)},
                {"planner", job.row.name},
                {"seed", job.row.options.seed},
                {"status", to_string(result.status)},
@@ -90,6 +102,7 @@ Json row_json(const PlanResult& result, const PlanJob& job, double optimum) {
                {"iterations", result.iterations},
                {"nodes", result.nodes},
                {"motion_checks", result.motion_checks},
+               {"reused", result.reused},
                {"ended_by_clock", by_clock},
                {"times_ms", times_json(result)},
                {"draws", {{"guided", result.draws.guided}, {"uniform", result.draws.uniform}}}};
@@ -103,8 +116,10 @@ Json row_json(const PlanResult& result, const PlanJob& job, double optimum) {
 Json run_job(const PlanJob& job) {
   const Problem& p = *job.problem;
   const auto planned = [&] {
+    const PlanRequest request = request_of(p, *job.suite, job.row, job.cancel);
+    if (!job.row.after.empty()) return replanned(request, *job.suite, job.row, job.predictor, p.scale);
     const Planner planner(job.predictor, job.row.options);
-    return planner.plan({*p.map, p.start, p.goal, job.suite->radius, job.suite->unknown, job.cancel});
+    return planner.plan(request);
   };
   const bool on_grid = job.row.options.planner == grid_search_name;
   const PlanResult result = on_grid ? grid_search(p, *job.suite) : planned();
@@ -113,28 +128,48 @@ Json run_job(const PlanJob& job) {
   return row_json(result, job, result.solved() ? job.optimum->of(p, *job.suite) : nan);
 }
 
+/// A predictor that is shown maps of so many pixels a side, whatever it would see in full.
+class InDetail final : public RegionPredictor {
+ public:
+  InDetail(std::shared_ptr<const RegionPredictor> inner, int detail) : inner_(std::move(inner)), detail_(detail) {}
+  Prediction predict(const OccupancyMap& map, const Eigen::Vector2d& start,
+                     const Eigen::Vector2d& goal) const override {
+    return inner_->predict(map, start, goal);
+  }
+  int detail() const override { return detail_; }
+
+ private:
+  std::shared_ptr<const RegionPredictor> inner_;
+  int detail_;
+};
+
 /// The models of a suite, each loaded and called once before anything is measured.
 class Predictors {
  public:
   Predictors(const Suite& suite, Campaign& campaign) : suite_(suite), campaign_(campaign) {}
 
+  /// Null for an unguided row.
   std::shared_ptr<const RegionPredictor> of(const PlanRow& row) {
-    if (row.options.strategy == Strategy::uniform) return nullptr;
+    if (!row.guided()) return nullptr;
     std::shared_ptr<const RegionPredictor>& known = loaded_[row.model];
-    if (known) return known;
-    if (std::shared_ptr<const RegionPredictor> made = made_region(row.model)) return known = std::move(made);
-    const std::filesystem::path file = model_path(suite_, row.model);
-    OnnxOptions options;
-    options.threads = std::get<PlanSuite>(suite_.body).threads;
-    const auto predictor = std::make_shared<const OnnxPredictor>(file, options);
-    const OccupancyMap empty(16, 16, std::vector<Cell>(256, Cell::free));
-    predictor->predict(empty, {2.5, 2.5}, {13.5, 13.5});
-    campaign_.onnxruntime = predictor->info().runtime_version;
-    campaign_.inputs["models"][row.model] = file_checksum(file);
-    return known = predictor;
+    if (!known) known = loaded(row.model);
+    return row.detail == 0 ? known : std::make_shared<const InDetail>(known, row.detail);
   }
 
  private:
+  std::shared_ptr<const RegionPredictor> loaded(const std::string& model) {
+    if (std::shared_ptr<const RegionPredictor> made = made_region(model)) return made;
+    const std::filesystem::path file = model_path(suite_, model);
+    OnnxOptions options;
+    options.threads = std::get<PlanSuite>(suite_.body).threads;
+    auto predictor = std::make_shared<const OnnxPredictor>(file, options);
+    const OccupancyMap empty(16, 16, std::vector<Cell>(256, Cell::free));
+    predictor->predict(empty, {2.5, 2.5}, {13.5, 13.5});
+    campaign_.onnxruntime = predictor->info().runtime_version;
+    campaign_.inputs["models"][model] = file_checksum(file);
+    return predictor;
+  }
+
   const Suite& suite_;
   Campaign& campaign_;
   std::map<std::string, std::shared_ptr<const RegionPredictor>> loaded_;
@@ -179,7 +214,8 @@ Campaign plan_campaign(const Suite& suite, const CancelToken& cancel, const Iter
   for (const Problem& problem : problems) {
     const auto shared = std::make_shared<const Problem>(problem);
     const auto optimum = std::make_shared<Optimum>();
-    campaign.inputs["maps"][problem.map_name] = map_checksum(*problem.map);
+    Json& checksum = campaign.inputs["maps"][problem.map_name];
+    if (checksum.is_null()) checksum = map_checksum(*problem.map);
     // Rows innermost: whatever else the machine does falls on all of them alike.
     for (int run = 0; run < body.runs; ++run, ++pair) {
       for (std::size_t i = 0; i < body.rows.size(); ++i) {

@@ -22,12 +22,14 @@ PlanRecord record_of(const Json& row) {
   record.first = number(row, "first_ms");
   record.search = number(row, "search_ms");
   const Json& times = row.at("times_ms");
+  record.cost = record.solved ? record.first : number(times, "total");
   record.prediction = number(times, "encode") + number(times, "infer") + number(times, "region");
   record.iterations = number(row, "iterations");
   record.nodes = number(row, "nodes");
   record.checks = number(row, "motion_checks");
   record.clearance = number(row.value("clearance", Json::object()), "mean");
-  record.length = number(row, "length") / number(row, "optimum");
+  record.cost_of_path = number(row, "length");
+  record.length = record.cost_of_path / number(row, "optimum");
   const Json within = row.value("within_ms", Json::object());
   for (std::size_t i = 0; i < within_percents.size(); ++i) {
     record.within[i] = number(within, std::to_string(within_percents[i]));
@@ -38,14 +40,37 @@ PlanRecord record_of(const Json& row) {
 }  // namespace
 
 std::vector<RowRecords> records_of(const Json& document) {
+  std::map<std::string, const Json*> settings;
+  for (const Json& planner : document.at("suite").at("planners")) {
+    settings[planner.at("name").get<std::string>()] = &planner;
+  }
+  const auto suites = document.at("suite").at("baseline").get<std::string>();
+  const auto begin = [&](const std::string& group, const std::string& planner) {
+    const Json& said = *settings.at(planner);
+    return RowRecords{group, planner, said.value("baseline", suites), said.at("strategy") != "uniform", {}};
+  };
   std::vector<RowRecords> result;
   for (const Json& row : document.at("rows")) {
     const auto group = row.at("group").get<std::string>();
     const auto planner = row.at("planner").get<std::string>();
     const auto same = [&](const RowRecords& r) { return r.group == group && r.planner == planner; };
     auto place = std::find_if(result.begin(), result.end(), same);
-    if (place == result.end()) place = result.insert(place, {group, planner, {}});
+    if (place == result.end()) place = result.insert(place, begin(group, planner));
     place->runs.push_back(record_of(row));
+  }
+  return result;
+}
+
+std::vector<RowRecords> over_all_groups(const std::vector<RowRecords>& records) {
+  std::vector<RowRecords> result;
+  for (const RowRecords& row : records) {
+    const auto same = [&](const RowRecords& r) { return r.planner == row.planner; };
+    const auto place = std::find_if(result.begin(), result.end(), same);
+    if (place == result.end()) {
+      result.push_back(row);
+    } else {
+      place->runs.insert(place->runs.end(), row.runs.begin(), row.runs.end());
+    }
   }
   return result;
 }

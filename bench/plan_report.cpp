@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "campaign.hpp"
+#include "hard_queries.hpp"
 #include "plan_records.hpp"
 #include "statistics.hpp"
 #include "table.hpp"
@@ -86,40 +87,58 @@ std::string within_table(const std::vector<const RowRecords*>& rows) {
 std::string gains_table(const std::vector<const RowRecords*>& rows, const RowRecords& baseline) {
   Table table({"gain over " + baseline.planner, "pairs", "first path", "search", "iterations", "nodes", "length"});
   for (const RowRecords* row : rows) {
-    if (row == &baseline) continue;
+    if (row == &baseline || row->baseline != baseline.planner) continue;
     const auto ratios = [&](Field field) { return paired_ratios(baseline.runs, row->runs, field); };
     const auto cell = [&](Field field) { return median_and_quartiles(ratios(field), "×"); };
     table.add({row->planner, std::to_string(ratios(&PlanRecord::first).size()), cell(&PlanRecord::first),
                cell(&PlanRecord::search), cell(&PlanRecord::iterations), cell(&PlanRecord::nodes),
-               cell(&PlanRecord::length)});
+               cell(&PlanRecord::cost_of_path)});
   }
   return table.text();
 }
 
-std::string group_report(const std::vector<const RowRecords*>& rows, const std::string& baseline) {
+/// A table of gains for every row that others are compared with.
+std::string gains_tables(const std::vector<const RowRecords*>& rows) {
+  std::string text;
+  for (const RowRecords* baseline : rows) {
+    const auto compared = [&](const RowRecords* r) { return r != baseline && r->baseline == baseline->planner; };
+    if (std::any_of(rows.begin(), rows.end(), compared)) text += "\n" + gains_table(rows, *baseline);
+  }
+  return text;
+}
+
+std::string group_report(const std::vector<const RowRecords*>& rows) {
   std::string text = "== " + rows.front()->group + "\n\n" + medians_table(rows) + "\n" + means_table(rows);
-  const std::string within = within_table(rows);
-  if (!within.empty()) text += "\n" + within;
-  const auto base = std::find_if(rows.begin(), rows.end(), [&](const RowRecords* r) { return r->planner == baseline; });
-  if (rows.size() > 1 && base != rows.end()) text += "\n" + gains_table(rows, **base);
-  return text + "\n";
+  for (const std::string& table : {within_table(rows), hard_table(rows)}) {
+    if (!table.empty()) text += "\n" + table;
+  }
+  return text + gains_tables(rows) + "\n";
+}
+
+/// What all groups say together: hard and easy queries.
+std::string overall_report(const std::vector<RowRecords>& records) {
+  const std::vector<RowRecords> all = over_all_groups(records);
+  std::vector<const RowRecords*> rows(all.size());
+  std::transform(all.begin(), all.end(), rows.begin(), [](const RowRecords& row) { return &row; });
+  const std::string table = all.size() < records.size() ? hard_table(rows) : "";
+  return table.empty() ? "" : "== all groups\n\n" + table + "\n";
 }
 
 }  // namespace
 
 std::string plan_report(const Json& document) {
   const std::vector<RowRecords> records = records_of(document);
-  const auto baseline = document.at("suite").at("baseline").get<std::string>();
   std::string text;
   std::vector<const RowRecords*> rows;
   for (std::size_t i = 0; i < records.size(); ++i) {
     rows.push_back(&records[i]);
     const bool last = i + 1 == records.size() || records[i + 1].group != records[i].group;
     if (!last) continue;
-    text += group_report(rows, baseline);
+    text += group_report(rows);
     rows.clear();
   }
-  return text + "Times, lengths, iterations and nodes are of solved runs. --help says what the columns mean.\n";
+  return text + overall_report(records) +
+         "Times, lengths, iterations and nodes are of solved runs. --help says what the columns mean.\n";
 }
 
 std::string plan_csv(const Json& document) {

@@ -8,6 +8,7 @@
 #include "problems.hpp"
 #include "reference.hpp"
 #include "result_file.hpp"
+#include "robot.hpp"
 
 namespace lrrt::bench {
 namespace {
@@ -27,18 +28,21 @@ Json point(const Eigen::Vector2d& p) {
   return {p.x(), p.y()};
 }
 
-Json problem_json(const Problem& problem, const OccupancyMap& map, const std::string& picture, bool reference) {
-  const double optimum = reference ? shortest_length(map, problem.start, problem.goal) : std::nan("");
-  return {{"group", problem.group},
-          {"map", problem.map_name},
-          {"query", problem.query},
-          {"picture", picture},
-          {"resolution", map.resolution()},
-          {"start", point(problem.start)},
-          {"goal", point(problem.goal)},
-          {"start_pixel", point(map.to_pixel(problem.start))},
-          {"goal_pixel", point(map.to_pixel(problem.goal))},
-          {"optimum", number_or_null(optimum)}};
+Json problem_json(const Problem& problem, const OccupancyMap& map, const std::string& picture, const PlanSuite& suite) {
+  const double optimum = suite.reference ? shortest_length(map, problem.start, problem.goal) : std::nan("");
+  Json json = {{"group", problem.group},
+               {"map", problem.map_name},
+               {"query", problem.query},
+               {"picture", picture},
+               {"resolution", map.resolution()},
+               {"start", point(problem.start)},
+               {"goal", point(problem.goal)},
+               {"start_pixel", point(map.to_pixel(problem.start))},
+               {"goal_pixel", point(map.to_pixel(problem.goal))},
+               {"optimum", number_or_null(optimum)}};
+  if (suite.has_headings()) json["headings"] = {problem.start_heading, problem.goal_heading};
+  json["scale"] = problem.scale;
+  return json;
 }
 
 }  // namespace
@@ -54,13 +58,13 @@ std::size_t export_problems(const Suite& suite, const std::filesystem::path& fol
   Json document = {{"suite", to_json(suite)}, {"problems", Json::array()}};
   std::map<std::string, std::string> pictures;  // by map
   for (const Problem& problem : make_problems(suite)) {
-    const OccupancyMap map = planning_map(*problem.map, *body);
+    const OccupancyMap map = planning_map(problem, *body);
     std::string& picture = pictures[problem.map_name];
     if (picture.empty()) {
       picture = "map_" + std::to_string(pictures.size()) + ".png";
       write_png(folder / picture, picture_of(map));
     }
-    document["problems"].push_back(problem_json(problem, map, picture, body->reference));
+    document["problems"].push_back(problem_json(problem, map, picture, *body));
   }
   write_file(folder / "problems.json", dumped(document, 1) + "\n");
   return document["problems"].size();

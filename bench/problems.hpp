@@ -18,12 +18,12 @@ struct Problem {
   std::string map_name;
   std::shared_ptr<const OccupancyMap> map;
   std::string query;
-  Eigen::Vector2d start;  ///< map units
-  Eigen::Vector2d goal;   ///< map units
+  Eigen::Vector2d start;       ///< map units
+  Eigen::Vector2d goal;        ///< map units
+  double start_heading = 0.0;  ///< radians; 0 where nothing has a heading
+  double goal_heading = 0.0;   ///< the same
+  double scale = 1.0;          ///< what the robot's lengths are multiplied by
 };
-
-/// The map that a suite's robot, shrunk to a point, plans on.
-OccupancyMap planning_map(const OccupancyMap& map, const PlanSuite& suite);
 
 /// Reads or makes every map of a suite and draws its queries. The same suite gives the same problems.
 /// @throws SuiteError when a path holds nothing or a map has no room for the robot. @throws MapError for a broken map.

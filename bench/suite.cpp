@@ -109,21 +109,72 @@ std::vector<std::string> shipped_suites() {
 
 namespace {
 
-/// A user's own map or folder of maps, with queries drawn at random.
-MapSource own_maps(const std::string& path) {
+/// How given maps are treated where a suite has none: five random queries each.
+MapSource plain_treatment() {
+  QuerySource query;
+  query.kind = QuerySource::Kind::random;
+  query.count = 5;
+  MapSource source;
+  source.kind = MapSource::Kind::folder;
+  source.pixels = 0;
+  source.queries = {query};
+  return source;
+}
+
+bool same_treatment(const MapSource& a, const MapSource& b) {
+  const auto settings = [](MapSource source) {
+    source.name = source.path = "";
+    if (source.kind == MapSource::Kind::file) source.kind = MapSource::Kind::folder;
+    return to_json(source, true);
+  };
+  return settings(a) == settings(b);
+}
+
+/// The ways in which a suite treats the maps that it is given, each once. Queries at given places are for its own maps
+/// only, and so is the scale.
+std::vector<MapSource> treatments_of(const PlanSuite& suite) {
+  std::vector<MapSource> result;
+  for (MapSource source : suite.maps) {
+    if (source.kind == MapSource::Kind::maze) continue;
+    const auto elsewhere = [](const QuerySource& query) {
+      return query.kind == QuerySource::Kind::points || query.kind == QuerySource::Kind::scen;
+    };
+    source.queries.erase(std::remove_if(source.queries.begin(), source.queries.end(), elsewhere), source.queries.end());
+    if (source.queries.empty()) source.queries = plain_treatment().queries;
+    source.scale = 1.0;
+    const auto same = [&](const MapSource& other) { return same_treatment(source, other); };
+    if (std::none_of(result.begin(), result.end(), same)) result.push_back(std::move(source));
+  }
+  if (result.empty()) result.push_back(plain_treatment());
+  return result;
+}
+
+/// A user's own map or folder of maps.
+MapSource own_maps(const std::string& path, MapSource treatment, bool only_treatment) {
   std::error_code ignored;
   const fs::path absolute = fs::absolute(path, ignored);
   if (path.empty() || !fs::exists(absolute, ignored))
     throw SuiteError("--maps '" + path + "': expected a map file or a folder of maps");
-  MapSource source;
-  source.kind = fs::is_directory(absolute, ignored) ? MapSource::Kind::folder : MapSource::Kind::file;
-  source.name = path;
-  source.path = absolute.string();
-  QuerySource query;
-  query.kind = QuerySource::Kind::random;
-  query.count = 5;
-  source.queries = {query};
-  return source;
+  const bool folder = fs::is_directory(absolute, ignored);
+  if (treatment.kind != MapSource::Kind::mosaic)
+    treatment.kind = folder ? MapSource::Kind::folder : MapSource::Kind::file;
+  treatment.name = only_treatment ? path : path + ", " + treatment.name;
+  treatment.path = absolute.string();
+  return treatment;
+}
+
+void take_own_maps(const std::vector<std::string>& paths, PlanSuite& suite) {
+  const std::vector<MapSource> treatments = treatments_of(suite);
+  suite.maps.clear();
+  for (const std::string& path : paths) {
+    for (const MapSource& treatment : treatments) {
+      MapSource source = own_maps(path, treatment, treatments.size() == 1);
+      const auto same = [&](const MapSource& other) { return other.name == source.name; };
+      if (std::any_of(suite.maps.begin(), suite.maps.end(), same))
+        throw SuiteError("--maps '" + path + "': named twice");
+      suite.maps.push_back(std::move(source));
+    }
+  }
 }
 
 /// The model that a user names, seen from the suite's folder, as the suite would name it.
@@ -162,13 +213,7 @@ void apply(const Overrides& overrides, Suite& suite) {
     for (const std::string& model : overrides.models) predict->models.push_back(own_model(model, suite.folder));
   }
   if (plan != nullptr) {
-    if (!overrides.maps.empty()) plan->maps.clear();
-    for (const std::string& path : overrides.maps) {
-      const auto same = [&](const MapSource& other) { return other.name == path; };
-      if (std::any_of(plan->maps.begin(), plan->maps.end(), same))
-        throw SuiteError("--maps '" + path + "': named twice");
-      plan->maps.push_back(own_maps(path));
-    }
+    if (!overrides.maps.empty()) take_own_maps(overrides.maps, *plan);
     for (PlanRow& row : plan->rows) row.options.time_limit = overrides.time_limit.value_or(row.options.time_limit);
   }
 }

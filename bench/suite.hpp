@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -19,31 +19,40 @@ namespace lrrt::bench {
 struct QuerySource {
   enum class Kind {
     farthest,  ///< the two ends of the longest way
-    random,    ///< random free pixels of the largest component, far apart
+    random,    ///< random places in the largest component, far apart; where there are headings, random ones
     points,    ///< given points
     scen,      ///< a MovingAI scenario list
   };
   Kind kind = Kind::farthest;
   int count = 1;           ///< random: pairs a map; scen: so many of the list, evenly spread, 0 for all
   double apart = 0.5;      ///< random: least straight distance, as a share of the component's diagonal
+  double far = 0.0;        ///< random: if above 0, instead: least walking distance, as a share of the longest way
   std::uint64_t seed = 1;  ///< random
-  Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< points: map units
-  Eigen::Vector2d goal = Eigen::Vector2d::Zero();   ///< points: map units
-  std::string path;                                 ///< scen: file; empty for the map's own name and ".scen"
+  Pose2 start{};           ///< points: map units, radians
+  Pose2 goal{};            ///< points: map units, radians
+  std::string path;        ///< scen: file; empty for the map's own name and ".scen"
 };
 
 /// One entry of a suite's `maps`: one map, or many that are reported together.
 struct MapSource {
-  enum class Kind { maze, file, folder };
+  enum class Kind {
+    maze,    ///< generated
+    file,    ///< one map
+    folder,  ///< every map in it
+    mosaic,  ///< generated of the maps in a folder, see mosaic_of()
+  };
   Kind kind = Kind::maze;
   std::string name;                            ///< the group's heading
-  std::string path;                            ///< file, folder
+  std::string path;                            ///< file, folder, mosaic
   int level = 25;                              ///< maze: blocks a side
   std::vector<std::string> algorithms{"dfs"};  ///< maze: taken in turn
-  int count = 1;                               ///< maze: how many
-  int pixels = 256;                            ///< maze: side of the picture
+  int count = 1;                               ///< maze, mosaic: how many
+  int pixels = 256;                            ///< side of the map; file, folder: longer side, 0 leaves it as it is
+  int tile = 512;                              ///< mosaic: side of a tile, pixels
+  int corridor = 16;                           ///< mosaic: width of the ways between tiles, pixels
   double braid = 0.0;                          ///< maze: share of dead ends with a second exit
-  std::uint64_t seed = 1;                      ///< maze
+  std::uint64_t seed = 1;                      ///< maze, mosaic
+  double scale = 1.0;                          ///< what the robot's lengths are multiplied by on these maps
   std::vector<QuerySource> queries;
 };
 
@@ -54,7 +63,16 @@ struct PlanRow {
   std::string model = "default";    ///< a file, the model that ships, or one of made_region_names()
   std::string stop = "first";       ///< a word that the library knows
   std::string neighbors = "grid";   ///< a word that the library knows
+  std::string motion = "plane";     ///< a word that the library knows
+  double turning_radius = 0.0;      ///< of a car, map units before MapSource::scale
+  int detail = 0;                   ///< pixels a side of the maps that the model is shown; 0 leaves it to the model
+  std::string after;                ///< what happens between two plans, of which the second counts: move, obstacle
+  bool session = false;             ///< whether the second plan is that of a session, which knows the first one
+  std::string baseline;             ///< name of the row that this one is compared with; empty for the suite's
   PlanOptions options;              ///< complete but for the seed
+
+  bool has_heading() const { return motion != "plane"; }
+  bool guided() const { return options.strategy != Strategy::uniform; }
 };
 
 /// `kind: plan`: planners against each other on the same queries with the same seeds.
@@ -64,10 +82,18 @@ struct PlanSuite {
   std::string baseline;    ///< name of the row that the others are compared with
   int runs = 10;           ///< seeds a query
   std::uint64_t seed = 1;  ///< of the first run; the next run takes the next number
-  double radius = 0.0;     ///< of the disc-shaped robot, map units
+  double radius = 0.0;     ///< of the disc-shaped robot, or a margin around its outline; map units before the scale
+  std::optional<Polygon> outline{};  ///< of the robot, map units before the scale; for rows with a heading
+  double move = 1.0;      ///< how far the robot gets along its path, for rows after a move; map units before the scale
+  double obstacle = 0.3;  ///< side of the square that stands on the path, for rows after an obstacle; the same units
   UnknownIs unknown = UnknownIs::occupied;
   int threads = 0;        ///< of one prediction; 0 lets the library choose
-  bool reference = true;  ///< whether the exact shortest path is computed
+  bool reference = true;  ///< whether the exact shortest path is computed; for a point or disc in the plane
+
+  /// Whether start and goal are poses: some row has headings.
+  bool has_headings() const {
+    return std::any_of(rows.begin(), rows.end(), [](const PlanRow& row) { return row.has_heading(); });
+  }
 };
 
 /// `kind: predict`: how fast models predict.
@@ -98,7 +124,9 @@ struct Overrides {
   std::optional<int> runs;
   std::optional<std::uint64_t> seed;
   std::optional<double> time_limit;
-  std::vector<std::string> maps;    ///< files and folders that take the place of the suite's maps
+  /// Files and folders that take the place of the suite's maps: of each entry that reads files, with its settings but
+  /// for the scale. Where none does, five random queries each.
+  std::vector<std::string> maps;
   std::vector<std::string> models;  ///< files and patterns that take the place of the suite's models
 };
 
@@ -127,7 +155,20 @@ inline constexpr NumberRule time_limits{1e-6, 1e9, "a number of seconds from 1e-
 /// memory of most machines.
 void check_pixels(const Fields& fields, const std::string& key, int count, int side);
 
+/// What a suite says of one of its maps. @param headings whether given places have one.
+Json to_json(const MapSource& source, bool headings);
+
 /// Reads the body of a `kind: plan` suite. @throws SuiteError.
 PlanSuite read_plan_suite(const Fields& fields);
+
+/// Reads `maps`, each with its own queries or those at the top of the file. @param headings whether start and goal have
+/// one. @throws SuiteError.
+std::vector<MapSource> read_map_sources(const Fields& fields, bool headings);
+
+/// Reads `planners`, the rows of the report. @param robot radius and outline that they plan for. @throws SuiteError.
+std::vector<PlanRow> read_plan_rows(const Fields& fields, const PlanSuite& robot);
+
+/// What a row may say, and the top of the file for all rows.
+const std::vector<std::string>& row_keys();
 
 }  // namespace lrrt::bench

@@ -99,6 +99,8 @@ def _with_pictures(problems: list[Problem]) -> list[Problem]:
 
 
 def _problem(fields: Fields, folder: Path) -> Problem:
+    if "headings" in fields:
+        raise fields.refuse("headings", "none: these planners take points through the plane; choose such a suite")
     optimum = fields.number_or_nan("optimum")
     return Problem(
         group=fields.text("group"),

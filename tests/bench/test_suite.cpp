@@ -59,7 +59,7 @@ TEST(Suite, ListsMakeRows) {
 TEST(Suite, ErrorsNameFileLineKeyAndExpectation) {
   EXPECT_EQ(error_of(with("level: 9", "levle: 9")),
             "my.yaml:4: unknown key 'maps[0].levle': expected one of kind, name, level, algorithm, count, pixels, "
-            "braid, seed, queries");
+            "braid, seed, scale, queries");
   EXPECT_EQ(error_of(with("level: 9", "level: 8")),
             "my.yaml:4: maps[0].level is 8: expected an odd number of blocks from 5 on");
   EXPECT_EQ(error_of(with("0.5, 0.8", "0.5, 1.8")),
@@ -150,7 +150,7 @@ TEST(Suite, OwnMapsTakeThePlaceOfTheSuites) {
   changes.maps = {LRRT_BENCH_SUITES "/../maps/rooms", LRRT_BENCH_SUITES "/../maps/city/0.png"};
   apply(changes, suite);
   const std::vector<Problem> problems = make_problems(suite);
-  EXPECT_EQ(problems.size(), 25U);  // five maps, five queries each
+  EXPECT_EQ(problems.size(), 5U);  // five maps, one query each, as for the map that the suite is given
   for (const Problem& problem : problems)
     EXPECT_TRUE(problem.group == changes.maps[0] || problem.group == changes.maps[1]);
   for (const std::vector<std::string>& wrong :
@@ -214,6 +214,31 @@ TEST(Models, PatternsTakeWhatCanBeRunAndSayWhatIsLeftOut) {
   } catch (const SuiteError& error) {
     EXPECT_NE(std::string(error.what()).find("-DLRRT_WITH_TORCH=ON"), std::string::npos) << error.what();
   }
+}
+
+TEST(Suite, OwnMapsAreTreatedAsTheSuiteTreatsItsOwn) {
+  const std::string rooms = LRRT_BENCH_SUITES "/../maps/rooms";
+  const auto treated = [&](const char* name) {
+    Suite suite = load_suite(name);
+    Overrides changes;
+    changes.maps = {rooms};
+    apply(changes, suite);
+    return std::get<PlanSuite>(suite.body).maps;
+  };
+  const std::vector<MapSource> large = treated("large");
+  ASSERT_EQ(large.size(), 2U);  // enlarged, and in a mosaic
+  EXPECT_EQ(large[0].kind, MapSource::Kind::folder);
+  EXPECT_EQ(large[0].pixels, 4096);
+  EXPECT_EQ(large[1].kind, MapSource::Kind::mosaic);
+  EXPECT_NE(large[0].name, large[1].name);
+  const std::vector<MapSource> cars = treated("car");
+  ASSERT_EQ(cars.size(), 1U);
+  EXPECT_EQ(cars[0].name, rooms);
+  EXPECT_DOUBLE_EQ(cars[0].scale, 1.0);
+  EXPECT_GT(cars[0].queries[0].far, 0.0);
+  const std::vector<MapSource> mazes = treated("paper");
+  ASSERT_EQ(mazes.size(), 1U);
+  EXPECT_EQ(mazes[0].queries[0].count, 5);
 }
 
 TEST(Suite, EveryShippedSuiteIsRead) {

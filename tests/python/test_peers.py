@@ -180,6 +180,7 @@ def test_problems_are_read(tmp_path):
         ({"problems__0__start_pixel": [1]}, ["'problems[0].start_pixel' is [1]", "[x, y] in pixels"]),
         ({"problems__0__goal_pixel": None}, ["'problems[0].goal_pixel'", "[x, y] in pixels"]),
         ({"problems__0__resolution": -1.0}, ["'problems[0].resolution'", "above 0"]),
+        ({"problems__0__headings": [0.0, 1.0]}, ["'problems[0].headings'", "points through the plane"]),
         ({"problems__0__picture": "gone.png"}, ["gone.png", "cannot be read", "lrrt_bench --problems"]),
         ({"problems__0__picture": "problems.json"}, ["problems.json", "cannot be read"]),
     ],

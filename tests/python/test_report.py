@@ -26,6 +26,7 @@ from lrrt.report.figures import heat_pictures, means_picture, predict_pictures
 from lrrt.report.formatting import short_number
 from lrrt.report.results import PlanResults, PredictResults, pairs_of
 from lrrt.report.style import Look, looks
+from lrrt.report.views import table_of
 
 GROUP = "mazes of 25×25 blocks"
 HEAD = {
@@ -193,6 +194,38 @@ def test_gains_pair_only_runs_that_both_solved(tmp_path):
 def test_gains_need_a_baseline_and_another(tmp_path):
     only = document([solved("RRT*", 1, 10.0)], [planner("RRT*", "uniform")])
     assert tb.gains_table(loaded(tmp_path, only), GROUP) is None
+
+
+def test_gains_are_told_against_each_rows_own_baseline(tmp_path):
+    content = two_planners()
+    content["suite"]["planners"].append({**planner("car"), "baseline": "guided"})
+    content["rows"] += [solved("car", seed, 1.0) for seed in (1, 2)]
+    results = loaded(tmp_path, content)
+    assert [table.title for table in tb.gains_tables(results, GROUP)] == ["Gain over RRT*", "Gain over guided"]
+    assert [row[0] for table in tb.gains_tables(results, GROUP) for row in table.rows] == ["guided", "car"]
+    assert table_of(results, "gain").title == "first path, the baseline's ÷ the row's"
+
+
+def test_hard_queries_are_those_that_cost_the_baseline_more_or_came_to_nothing(tmp_path):
+    results = loaded(tmp_path, two_planners())
+    table = tb.hard_table(results, results.groups())
+    assert table is not None
+    assert table.rows == [("guided", "3/4", "3/4", "0", "4", "2.81×", "11.2×", "62.4×", "0", "-", "-")]
+    assert table_of(results, "hard") == table
+    assert table_of(results, "hard:groups").rows == [(GROUP, *table.rows[0])]
+    easy = document(
+        [solved("RRT*", 1, 4.0), solved("guided", 1, 2.0, infer=5.0)], [planner("RRT*", "uniform"), planner("guided")]
+    )
+    table = tb.hard_table(loaded(tmp_path, easy), [GROUP])
+    assert table is not None
+    assert table.rows == [("guided", "1/1", "1/1", "0", "0", "-", "-", "-", "1", "8.00", "10.0")]
+    neither = document([failed("RRT*", 1), failed("guided", 1)], [planner("RRT*", "uniform"), planner("guided")])
+    table = tb.hard_table(loaded(tmp_path, neither), [GROUP])
+    assert table is not None and table.rows[0][1:5] == ("0/1", "0/1", "1", "0")
+    unguided = document([solved("RRT*", 1, 4.0)], [planner("RRT*", "uniform")])
+    assert tb.hard_table(loaded(tmp_path, unguided), [GROUP]) is None
+    with pytest.raises(ResultError, match="no such pair"):
+        table_of(loaded(tmp_path, unguided), "hard")
 
 
 def test_times_to_the_optimum_count_all_runs(tmp_path):
@@ -489,7 +522,7 @@ def test_the_page_says_what_was_measured_and_escapes_it(both):
 def test_markdown_tables_have_as_many_cells_as_columns(both):
     text = (both / "out.md").read_text(encoding="utf-8")
     blocks = [block.splitlines() for block in text.split("\n\n") if block.startswith("|")]
-    assert len(blocks) == 5  # medians, gains, means, settings; predictions
+    assert len(blocks) == 6  # medians, hard, gains, means, settings; predictions
     for lines in blocks:
         assert len({len(re.findall(r"(?<!\\)\|", line)) for line in lines}) == 1
     assert "RRT\\*" in text and "\\<b\\>" in text

@@ -86,9 +86,13 @@ def test_what_it_cannot_do_is_refused(session: lrrt.Session) -> None:
 
 
 def test_ctrl_c_ends_a_long_query() -> None:
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)  # where a shell had it ignored
     map_ = lrrt.OccupancyMap.from_array(rooms())
     session = lrrt.Session(map_, strategy="uniform", stop="limit", time_limit=60.0)
     timer = threading.Timer(0.2, signal.raise_signal, [signal.SIGINT])
     timer.start()
-    with pytest.raises(KeyboardInterrupt):
-        session.plan((5.5, 5.5), (80.5, 5.5))
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            session.plan((5.5, 5.5), (80.5, 5.5))
+    finally:
+        signal.signal(signal.SIGINT, before)

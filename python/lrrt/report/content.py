@@ -11,7 +11,7 @@ from lrrt.report.figures import group_pictures, overview_pictures, predict_pictu
 from lrrt.report.formatting import counted, slug
 from lrrt.report.results import Head, PlanResults, PredictResults
 from lrrt.report.style import Look, Picture, looks
-from lrrt.report.tables import Table, group_tables, predict_table, settings_table
+from lrrt.report.tables import Table, group_tables, hard_table, predict_table, settings_table
 
 _VERSIONS = {"lrrt": "lrrt", "ompl": "OMPL", "onnxruntime": "ONNX Runtime", "compiler": "", "build": "build"}
 
@@ -61,7 +61,8 @@ def _chapter(results: PlanResults | PredictResults, all_looks: dict[str, Look]) 
     if len(sections) == 1:
         sections = [replace(sections[0], pictures=overview + sections[0].pictures)]
     else:
-        sections.insert(0, Section("All groups", overview, []))
+        hard = hard_table(results, results.groups())
+        sections.insert(0, Section("All groups", overview, [hard] if hard is not None else []))
     return Chapter(results.head.title, facts, command, settings_table(results), sections)
 
 

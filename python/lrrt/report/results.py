@@ -18,7 +18,7 @@ from lrrt.report.fields import Fields, read_object
 
 FORMAT = "lrrt_bench 1"
 WITHIN_PERCENTS = (10, 5, 2, 1)  #: how near to the optimum; the benchmark program's steps
-Field = Literal["first", "search", "prediction", "iterations", "nodes", "checks", "length", "clearance"]
+Field = Literal["first", "search", "prediction", "iterations", "nodes", "checks", "cost_of_path", "length", "clearance"]
 
 
 @dataclass(frozen=True)
@@ -39,9 +39,15 @@ class Run:
     total: float  #: of the whole call
     first: float  #: from the call to the first path
     search: float  #: the planner's share of it
-    length: float  #: of the last path, divided by the optimum
+    cost_of_path: float  #: of the last path, map units
+    length: float  #: the same, divided by the optimum
     within: tuple[float, ...]  #: from the call until the path was so near to the optimum, as WITHIN_PERCENTS
     history: npt.NDArray[np.float64]  #: (N, 2): milliseconds from the call, best length divided by the optimum
+
+    @property
+    def cost(self) -> float:
+        """Milliseconds from the call to the first path; where none was found, of the whole call."""
+        return self.first if self.solved else self.total
 
     @property
     def key(self) -> tuple[str, str, int]:
@@ -62,6 +68,8 @@ class Setting:
     stop: str
     time_limit: float  #: seconds
     neighbors: str = ""  #: what finds the near nodes of its tree; empty in files that do not say
+    motion: str = ""  #: how the robot moves; empty in files that do not say
+    baseline: str = ""  #: name of the row that it is compared with; empty for the suite's
 
     @property
     def guided(self) -> bool:
@@ -113,6 +121,16 @@ class PlanResults:
     def planners(self) -> list[str]:
         """Planners in the order of the file."""
         return list(dict.fromkeys(run.planner for run in self.runs))
+
+    def baseline_of(self, planner: str) -> str:
+        """The row that a planner's row is compared with; a baseline's may be its own."""
+        setting = self.settings.get(planner)
+        return (setting.baseline if setting else "") or self.baseline
+
+    def guided(self, planner: str) -> bool:
+        """Whether a region guides a planner's row."""
+        setting = self.settings.get(planner)
+        return setting is not None and setting.guided
 
     def rows(self, group: str) -> dict[str, list[Run]]:
         """The runs of a group by planner."""
@@ -208,6 +226,8 @@ def _setting(fields: Fields) -> Setting:
         stop=fields.text("stop"),
         time_limit=fields.number("time_limit"),
         neighbors=fields.text("neighbors", ""),
+        motion=fields.text("motion", ""),
+        baseline=fields.text("baseline", ""),
     )
 
 
@@ -243,6 +263,7 @@ def _run(row: Fields) -> Run:
         total=times.number("total"),
         first=first,
         search=search,
+        cost_of_path=row.number("length") if solved else math.nan,
         length=row.number("length") / optimum if solved and optimum > 0 else math.nan,
         within=tuple(within.number_or_nan(str(percent)) for percent in WITHIN_PERCENTS),
         history=_history(row, first - search, optimum) if solved else np.empty((0, 2)),

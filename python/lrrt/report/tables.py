@@ -22,6 +22,7 @@ FIELDS: tuple[tuple[Field, str], ...] = (
     ("nodes", "nodes"),
     ("length", "length / optimum"),
 )
+GAINS: tuple[Field, ...] = ("first", "search", "iterations", "nodes", "cost_of_path")  #: needs no optimum
 _MEANS: tuple[tuple[Field, str], ...] = (
     ("first", "first path, ms"),
     ("search", "search, ms"),
@@ -30,6 +31,19 @@ _MEANS: tuple[tuple[Field, str], ...] = (
     ("checks", "motion checks"),
     ("length", "length / optimum"),
     ("clearance", "clearance"),
+)
+HARD_MS = 100.0  #: a query is hard for a planner that needs longer than this, prediction included
+HARD_COLUMNS = (
+    "solved",
+    "without",
+    "neither",
+    "hard",
+    "gain: 90 % have",
+    "median",
+    "10 % have",
+    "easy",
+    "cost, ms",
+    "without, and prediction",
 )
 
 
@@ -107,29 +121,87 @@ def gains_of(pairs: Sequence[tuple[Run, Run]], field: Field) -> list[float]:
     return ratios((getattr(base, field), getattr(run, field)) for base, run in pairs)
 
 
-def gains_table(results: PlanResults, group: str) -> Table | None:
-    """The baseline's numbers divided by each planner's; None without a baseline or without others."""
+def gains_table(results: PlanResults, group: str, baseline: str = "") -> Table | None:
+    """A baseline's numbers divided by those of each planner that is compared with it; None where there is none.
+
+    Args:
+        results: what was measured.
+        group: of maps.
+        baseline: a row that others are compared with; the suite's by default.
+    """
+    baseline = baseline or results.baseline
     runs = results.rows(group)
-    if results.baseline not in runs or len(runs) < 2:
+    compared = [name for name in runs if name != baseline and results.baseline_of(name) == baseline]
+    if baseline not in runs or not compared:
         return None
-    fields = [
-        (field, title.removesuffix(", ms").removesuffix(" / optimum"))
-        for field, title in FIELDS
-        if field != "prediction"
-    ]
+    titles = [title.removesuffix(", ms").removesuffix(" / optimum") for name, title in FIELDS if name != "prediction"]
     rows = []
-    for name, others in runs.items():
-        if name == results.baseline:
-            continue
-        pairs = pairs_of(runs[results.baseline], others)
-        gains = [gains_of(pairs, field) for field, _ in fields]
+    for name in compared:
+        pairs = pairs_of(runs[baseline], runs[name])
+        gains = [gains_of(pairs, field) for field in GAINS]
         rows.append((name, str(len(gains[0])), *(median_and_quartiles(gain, "×") for gain in gains)))
     return Table(
-        f"Gain over {results.baseline}",
-        ("planner", "pairs", *(title for _, title in fields)),
+        f"Gain over {baseline}",
+        ("planner", "pairs", *titles),
         rows,
-        f"The number of {results.baseline} divided by the row's for the same map, query and seed, over runs that both "
+        f"The number of {baseline} divided by the row's for the same map, query and seed, over runs that both "
         "solved: median [quartiles]. Above 1 the row is better.",
+    )
+
+
+def gains_tables(results: PlanResults, group: str) -> list[Table]:
+    """One for every row that others are compared with."""
+    tables = [gains_table(results, group, name) for name in results.rows(group)]
+    return [table for table in tables if table is not None]
+
+
+def hard_table(results: PlanResults, groups: Sequence[str]) -> Table | None:
+    """What guidance is worth on the queries that are hard without it, and what it costs on the others.
+
+    Args:
+        results: what was measured.
+        groups: of maps, taken together.
+
+    Returns:
+        A line for every guided planner whose baseline is unguided; None when there is none.
+    """
+    runs: dict[str, list[Run]] = {}
+    for group in groups:
+        for name, some in results.rows(group).items():
+            runs.setdefault(name, []).extend(some)
+    rows = [
+        (name, *_hard_cells(runs[results.baseline_of(name)], others))
+        for name, others in runs.items()
+        if results.guided(name) and results.baseline_of(name) in runs and not results.guided(results.baseline_of(name))
+    ]
+    if not rows:
+        return None
+    return Table(
+        "Hard and easy queries",
+        ("planner", *HARD_COLUMNS),
+        rows,
+        f"Hard: what cost the unguided baseline more than {HARD_MS:g} ms, or came to no path; neither: what came to no "
+        "path in both rows. Gain: what a hard query cost the baseline, divided by what it cost the row; failures count "
+        "with the time they took. The last columns: medians over the easy queries, the row's prediction added to the "
+        "baseline's time. Everything includes predictions.",
+    )
+
+
+def _hard_cells(baseline: list[Run], runs: list[Run]) -> tuple[str, ...]:
+    by_key = {run.key: run for run in baseline}
+    pairs = [(by_key[run.key], run) for run in runs if run.key in by_key]
+    told = [(base, run) for base, run in pairs if base.solved or run.solved]
+    hard = [(base, run) for base, run in told if not base.solved or base.cost > HARD_MS]
+    easy = [(base, run) for base, run in pairs if base.solved and base.cost <= HARD_MS]
+    gains = [base.cost / run.cost for base, run in hard]
+    return (
+        *(f"{sum(run.solved for run in some)}/{len(some)}" for some in (runs, baseline)),
+        str(len(pairs) - len(told)),
+        str(len(hard)),
+        *(short_number(quantile(gains, share)) + "×" * bool(gains) for share in (0.1, 0.5, 0.9)),
+        str(len(easy)),
+        short_number(quantile([run.cost for _, run in easy], 0.5)),
+        short_number(quantile([base.cost + run.prediction for base, run in easy], 0.5)),
     )
 
 
@@ -137,7 +209,8 @@ def group_tables(results: PlanResults, group: str) -> list[Table]:
     """All tables of a group that say something."""
     tables = [
         medians_table(results, group),
-        gains_table(results, group),
+        hard_table(results, [group]),
+        *gains_tables(results, group),
         within_table(results, group),
         means_table(results, group),
     ]
@@ -155,12 +228,13 @@ def settings_table(results: PlanResults) -> Table:
             PurePosixPath(s.model).name if s.guided else "-",
             f"{s.range:g}" if s.range else "by the map",
             s.neighbors or "-",
+            s.motion or "-",
             s.stop,
             f"{s.time_limit:g}",
         )
         for s in results.settings.values()
     ]
-    columns = ("row", "planner", "samples", "α", "model", "range", "near nodes", "stop", "time limit, s")
+    columns = ("row", "planner", "samples", "α", "model", "range", "near nodes", "motion", "stop", "time limit, s")
     return Table("Planners", columns, rows)
 
 

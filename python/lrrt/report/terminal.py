@@ -9,7 +9,16 @@ from pathlib import PurePosixPath
 
 from lrrt.report.formatting import THIN_SPACE
 from lrrt.report.results import Head, PlanResults, PredictResults, load
-from lrrt.report.tables import Table, gains_table, means_table, medians_table, predict_table, within_table
+from lrrt.report.tables import (
+    HARD_COLUMNS,
+    Table,
+    gains_tables,
+    hard_table,
+    means_table,
+    medians_table,
+    predict_table,
+    within_table,
+)
 
 _MEDIANS = ("solved (95 %)", "first path, ms", "prediction", "search", "iterations", "nodes", "length")
 _MEANS = ("first path, ms", "search", "iterations", "nodes", "motion checks", "length", "clearance")
@@ -38,20 +47,29 @@ def _heading(head: Head) -> str:
 
 def _plan_text(results: PlanResults) -> str:
     text = "".join(_group_text(results, group) for group in results.groups())
+    overall = hard_table(results, results.groups()) if len(results.groups()) > 1 else None
+    if overall is not None:
+        text += f"== all groups\n\n{_hard_text(overall)}\n"
     return text + "Times, lengths, iterations and nodes are of solved runs. --help says what the columns mean.\n"
 
 
 def _group_text(results: PlanResults, group: str) -> str:
-    within, gains = within_table(results, group), gains_table(results, group)
+    within, hard = within_table(results, group), hard_table(results, [group])
     tables = [
         _aligned(("median [quartiles]", *_MEDIANS), medians_table(results, group).rows),
         _aligned(("mean ± deviation", *_MEANS), means_table(results, group).rows),
     ]
     if within is not None:
         tables.append(_aligned(("to the optimum, ms", *within.columns[1:]), within.rows))
-    if gains is not None:
-        tables.append(_aligned((f"gain over {results.baseline}", *_GAINS), gains.rows))
+    if hard is not None:
+        tables.append(_hard_text(hard))
+    for gains in gains_tables(results, group):
+        tables.append(_aligned((gains.title.replace("Gain", "gain", 1), *_GAINS), gains.rows))
     return f"== {group}\n\n" + "\n".join(tables) + "\n"
+
+
+def _hard_text(table: Table) -> str:
+    return _aligned((table.title.lower(), *HARD_COLUMNS), table.rows)
 
 
 def _predict_text(results: PredictResults) -> str:

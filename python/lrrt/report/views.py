@@ -16,17 +16,11 @@ from lrrt.report.fields import ResultError
 from lrrt.report.formatting import short_number
 from lrrt.report.results import WITHIN_PERCENTS, Field, PlanResults, PredictResults, Run, pairs_of, values_of
 from lrrt.report.statistics import quantile
-from lrrt.report.tables import FIELDS, Table, gains_of, predict_table, success, times_within
+from lrrt.report.tables import FIELDS, GAINS, Table, gains_of, hard_table, predict_table, success, times_within
 
 MOST_COLUMNS = 6  #: groups; where there are more, and more than planners, they become rows
 _TITLES = dict(FIELDS)
-_GAINS: dict[str, Field] = {
-    "first-path": "first",
-    "search": "search",
-    "iterations": "iterations",
-    "nodes": "nodes",
-    "length": "length",
-}
+_GAINS: dict[str, Field] = dict(zip(("first-path", "search", "iterations", "nodes", "length"), GAINS))
 
 
 @dataclass(frozen=True)
@@ -124,8 +118,10 @@ def _gain(results: PlanResults, choice: str) -> Table:
         median = quantile(gains, 0.5)
         return _counted(median, short_number(median) + "×" * bool(gains), len(gains), len(runs))
 
-    quantity = _TITLES[field].removesuffix(", ms").removesuffix(" / optimum")
-    return _compact(results, f"{quantity}, {results.baseline} ÷ the row's", cell, max, baseline=False)
+    quantity = _TITLES[field].removesuffix(", ms") if field in _TITLES else choice
+    baselines = {results.baseline_of(name) for name in results.planners()}
+    who = results.baseline if len(baselines) == 1 else "the baseline's"
+    return _compact(results, f"{quantity}, {who} ÷ the row's", cell, max, baseline=False)
 
 
 def _within(results: PlanResults, choice: str) -> Table:
@@ -139,6 +135,21 @@ def _within(results: PlanResults, choice: str) -> Table:
 
 def _success(results: PlanResults, _: str) -> Table:
     return _compact(results, "solved (95 % interval)", lambda runs, _: _Cell(success(runs)), min)
+
+
+def _hard(results: PlanResults, choice: str) -> Table:
+    """Guided planners on all groups together, or on each."""
+    parts = [results.groups()] if choice == "all" else [[group] for group in results.groups()]
+    labels = group_labels(results)
+    tables = [(labels[part[0]], hard_table(results, part)) for part in parts]
+    made = [(label, table) for label, table in tables if table is not None]
+    if not made:
+        raise ResultError("'hard' compares guided planners with unguided baselines; the result has no such pair")
+    first = made[0][1]
+    if choice == "all":
+        return first
+    rows = [(label, *row) for label, table in made for row in table.rows]
+    return Table(first.title, ("maps", *first.columns), rows, first.note)
 
 
 def _predict(results: PredictResults, _: str) -> Table:
@@ -161,12 +172,12 @@ def _compact(
 ) -> Table:
     """One table of all groups and planners, the baseline among them or not, with the best of each group in bold."""
     groups = results.groups()
-    planners = [name for name in results.planners() if baseline or name != results.baseline]
+    planners = [name for name in results.planners() if baseline or name != results.baseline_of(name)]
     cells: dict[tuple[str, str], _Cell] = {}
     best: set[tuple[str, str]] = set()
     for group in groups:
         rows = results.rows(group)
-        column = {name: cell(rows[name], rows.get(results.baseline, [])) for name in planners if name in rows}
+        column = {name: cell(rows[name], rows.get(results.baseline_of(name), [])) for name in planners if name in rows}
         cells |= {(name, group): made for name, made in column.items()}
         best |= {(name, group) for name in _best(column, better)}
     labels = group_labels(results)
@@ -207,5 +218,12 @@ VIEWS: dict[str, View] = {
         tuple(str(percent) for percent in sorted(WITHIN_PERCENTS, key=lambda percent: percent != 2)),
     ),
     "success": View("plan", "how many runs found a path, with Wilson's 95 % interval", _success),
+    "hard": View(
+        "plan",
+        "guided planners against unguided baselines: gains on the queries that cost these more than 100 ms, times on "
+        "the others",
+        _hard,
+        ("all", "groups"),
+    ),
     "predict": View("predict", "the stages of a prediction: median, and what 95 % are below", _predict),
 }

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+#include "grid_search.hpp"
+#include "lrrt/planner.hpp"
+#include "suite.hpp"
+
+namespace lrrt::bench {
+namespace {
+
+constexpr double endless = std::numeric_limits<double>::max();
+constexpr NumberRule counts_or_zero{0, 1e15, "a whole number from 0 on"};
+constexpr NumberRule shares{0, 1, "a share from 0 to 1"};
+constexpr NumberRule lengths{0, endless, "0 or a positive length in map units"};
+constexpr NumberRule factors{1, endless, "a factor from 1 on"};
+constexpr NumberRule details{0, 16384, "a side from 1 to 16384 pixels, or 0 to leave it to the model"};
+
+/// Stands in for a model while options are checked.
+class NoPredictor final : public RegionPredictor {
+  Prediction predict(const OccupancyMap&, const Eigen::Vector2d&, const Eigen::Vector2d&) const override {
+    throw ModelError("this predictor predicts nothing");
+  }
+};
+
+std::string words(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+/// The name of a row that has none, or a part of a list: what sets it apart.
+std::string name_of(const Fields& fields, const PlanRow& row) {
+  const bool guided = row.strategy != "uniform";
+  std::string name = fields.text("name", row.options.planner);
+  if (!fields.has("name") && guided) name += " " + row.strategy;
+  const auto add = [&](const char* key, const std::string& value) {
+    const bool several = fields.has("name") && fields.is_list(key);
+    if (several) name += ", " + value;
+  };
+  add("planner", row.options.planner);
+  add("strategy", row.strategy);
+  if (guided && (fields.is_list("alpha") || !fields.has("name"))) name += ", α " + words(row.options.alpha);
+  if (fields.is_list("model")) name += ", " + row.model;
+  if (guided && fields.is_list("detail")) name += ", detail " + std::to_string(row.detail);
+  if (fields.is_list("range")) name += ", range " + words(row.options.range);
+  return name;
+}
+
+/// A* takes a point through the plane to its first path, unguided.
+void check_grid_search(const Fields& fields, const PlanRow& row, const PlanSuite& robot) {
+  if (row.strategy == "uniform" && row.stop == "first" && !row.has_heading() && !robot.outline) return;
+  fields.refuse_all(std::string(grid_search_name) +
+                    " searches the grid: expected 'strategy: uniform', 'stop: first', 'motion: plane' and no outline");
+}
+
+/// Asks the library whether options and robot make sense, with a map on which no query gets beyond that.
+void check(const Fields& fields, const PlanRow& row, const PlanSuite& robot) {
+  if (row.session && row.after.empty()) fields.refuse("session", "'after: move' or 'after: obstacle' with it");
+  if (row.options.planner == grid_search_name) {
+    check_grid_search(fields, row, robot);
+    return;
+  }
+  const OccupancyMap closed(1, 1, {Cell::occupied});
+  PlanRequest request{closed, {0.5, 0.5}, {0.5, 0.5}};
+  request.outline = robot.outline;
+  request.motion = motion_from_string(row.motion);
+  request.turning_radius = row.turning_radius;
+  try {
+    Planner(std::make_shared<NoPredictor>(), row.options).plan(request);
+  } catch (const RequestError& error) {
+    fields.refuse_all(error.what());
+  }
+}
+
+template <typename Function>
+auto checked_word(const Fields& fields, const char* key, const std::string& word, Function&& function) {
+  try {
+    return function(word);
+  } catch (const RequestError& error) {
+    fields.refuse_all(std::string(key) + ": " + error.what());
+  }
+}
+
+/// The settings that take one value each; those that may be lists are filled in by expanded().
+PlanRow read_common(const Fields& fields, const PlanRow& fallback) {
+  PlanRow row = fallback;
+  PlanOptions& o = row.options;
+  o.goal_bias = fields.number("goal_bias", o.goal_bias, shares);
+  o.goal_tolerance = fields.number("goal_tolerance", o.goal_tolerance, lengths);
+  row.stop = fields.text("stop", row.stop);
+  o.stop = checked_word(fields, "stop", row.stop, stop_from_string);
+  row.motion = fields.text("motion", row.motion);
+  checked_word(fields, "motion", row.motion, motion_from_string);
+  row.turning_radius = fields.number("turning_radius", row.turning_radius, lengths);
+  row.baseline = fields.text("baseline", row.baseline);
+  row.after = fields.word("after", row.after, {"move", "obstacle"});
+  row.session = fields.flag("session", row.session);
+  o.simplify = fields.flag("simplify", o.simplify);
+  row.neighbors = fields.text("neighbors", row.neighbors);
+  o.neighbors = checked_word(fields, "neighbors", row.neighbors, neighbors_from_string);
+  o.cost_factor = fields.number("cost_factor", o.cost_factor, factors);
+  o.time_limit = fields.number("time_limit", o.time_limit, time_limits);
+  const std::int64_t limit = fields.count("iteration_limit", -1, counts_or_zero);
+  if (limit == 0) o.iteration_limit = std::numeric_limits<std::size_t>::max();
+  if (limit > 0) o.iteration_limit = static_cast<std::size_t>(limit);
+  return row;
+}
+
+/// Every row once with each of the values. @param guided_only rows without guidance have but the first one.
+template <typename Value, typename Set>
+std::vector<PlanRow> with_each(const std::vector<PlanRow>& rows, const std::vector<Value>& values, bool guided_only,
+                               const Set& set) {
+  std::vector<PlanRow> result;
+  for (const PlanRow& row : rows) {
+    const std::size_t wanted = guided_only && !row.guided() ? 1 : values.size();
+    for (std::size_t i = 0; i < wanted; ++i) {
+      result.push_back(row);
+      set(result.back(), values[i]);
+    }
+  }
+  return result;
+}
+
+/// One row for every combination of the values in lists. An unguided row has no α, model and detail to combine.
+std::vector<PlanRow> expanded(const Fields& fields, const PlanRow& fallback) {
+  const PlanRow common = read_common(fields, fallback);
+  const PlanOptions& o = common.options;
+  std::vector<PlanRow> rows{common};
+  rows = with_each(rows, fields.texts("planner", {o.planner}), false,
+                   [](PlanRow& row, const std::string& planner) { row.options.planner = planner; });
+  rows =
+      with_each(rows, fields.texts("strategy", {common.strategy}), false, [&](PlanRow& row, const std::string& word) {
+        row.strategy = word;
+        row.options.strategy = checked_word(fields, "strategy", word, strategy_from_string);
+      });
+  rows = with_each(rows, fields.numbers("range", {o.range}, lengths), false,
+                   [](PlanRow& row, double range) { row.options.range = range; });
+  rows = with_each(rows, fields.texts("model", {common.model}), true,
+                   [](PlanRow& row, const std::string& model) { row.model = model; });
+  rows = with_each(rows, fields.counts("detail", {common.detail}, details), true,
+                   [](PlanRow& row, int detail) { row.detail = detail; });
+  return with_each(rows, fields.numbers("alpha", {o.alpha}, shares), true,
+                   [](PlanRow& row, double alpha) { row.options.alpha = alpha; });
+}
+
+/// Rows are compared with rows that there are.
+void check_baselines(const Fields& fields, const std::vector<PlanRow>& rows) {
+  for (const PlanRow& row : rows) {
+    const auto same = [&](const PlanRow& other) { return other.name == row.baseline; };
+    if (row.baseline.empty() || std::any_of(rows.begin(), rows.end(), same)) continue;
+    fields.refuse_all("the baseline '" + row.baseline + "' of row '" + row.name +
+                      "' is no row: expected the name of one");
+  }
+}
+
+}  // namespace
+
+const std::vector<std::string>& row_keys() {
+  static const std::vector<std::string> keys = {
+      "planner",   "strategy",       "alpha",          "model",       "detail",     "range",
+      "goal_bias", "goal_tolerance", "stop",           "cost_factor", "time_limit", "iteration_limit",
+      "neighbors", "motion",         "turning_radius", "simplify",    "after",      "session"};
+  return keys;
+}
+
+std::vector<PlanRow> read_plan_rows(const Fields& fields, const PlanSuite& robot) {
+  fields.require("planners", "a list of planners, each a row of the report");
+  for (const std::string& key : row_keys()) {
+    if (fields.is_list(key)) fields.refuse(key, "one value; a list belongs to an entry of 'planners'");
+  }
+  PlanRow fallback = expanded(fields, {}).front();
+  fallback.baseline.clear();  // at the top of the file it is the suite's
+  std::vector<PlanRow> rows;
+  std::vector<std::string> known = row_keys();
+  known.insert(known.end(), {"name", "baseline"});
+  for (const Fields& child : fields.children("planners")) {
+    child.allow_only(known);
+    for (PlanRow& row : expanded(child, fallback)) {
+      row.name = name_of(child, row);
+      check(child, row, robot);
+      const bool taken = std::any_of(rows.begin(), rows.end(), [&](const PlanRow& r) { return r.name == row.name; });
+      if (taken) child.refuse_all("a second row is called '" + row.name + "': expected a 'name' of its own");
+      rows.push_back(std::move(row));
+    }
+  }
+  check_baselines(fields, rows);
+  return rows;
+}
+
+}  // namespace lrrt::bench
