@@ -95,7 +95,7 @@ PlanRow read_common(const Fields& fields, const PlanRow& fallback) {
   checked_word(fields, "motion", row.motion, motion_from_string);
   row.turning_radius = fields.number("turning_radius", row.turning_radius, lengths);
   row.baseline = fields.text("baseline", row.baseline);
-  row.after = fields.word("after", row.after, {"move", "obstacle"});
+  if (fields.has("after")) row.after = fields.word("after", "", {"move", "obstacle"});
   row.session = fields.flag("session", row.session);
   o.simplify = fields.flag("simplify", o.simplify);
   row.neighbors = fields.text("neighbors", row.neighbors);
