@@ -55,6 +55,7 @@ class Session::Memory {
 
   std::vector<PlanResult> plan(const std::vector<Query>& queries, const CancelToken& cancel) {
     std::vector<Task> tasks;
+    tasks.reserve(queries.size());
     for (const Query& query : queries) {
       tasks.push_back({request_for(query, cancel), std::nullopt, {}});
       check(tasks.back().request, planner_.options());
@@ -63,6 +64,7 @@ class Session::Memory {
     for (Task& task : tasks) prepare(task);
     predict(tasks);
     std::vector<PlanResult> results;
+    results.reserve(tasks.size());
     for (Task& task : tasks) {
       if (task.prepared) search(*task.prepared, task.request, planner_.options(), task.result);
       const PlanTimings& t = task.result.timings;
@@ -144,6 +146,7 @@ class Session::Memory {
 
   void predict(const OccupancyMap& map, const std::vector<Task*>& tasks) const {
     std::vector<RegionQuery> queries;
+    queries.reserve(tasks.size());
     for (const Task* task : tasks) queries.push_back({task->request.start, task->request.goal});
     std::vector<Prediction> predictions = planner_.predictor()->predict_many(map, queries);
     for (std::size_t i = 0; i < tasks.size(); ++i) {

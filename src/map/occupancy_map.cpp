@@ -115,7 +115,7 @@ Eigen::Vector2d OccupancyMap::to_pixel(const Eigen::Vector2d& world) const {
 }
 
 Eigen::Vector2d OccupancyMap::to_world(const Eigen::Vector2d& pixel) const {
-  const Eigen::Vector2d original = pixel * frame_.coarseness + frame_.corner;
+  Eigen::Vector2d original = pixel * frame_.coarseness + frame_.corner;
   if (!frame_.metric) return original;
   const double u = original.x() * frame_.resolution;
   const double v = (frame_.height - original.y()) * frame_.resolution;
