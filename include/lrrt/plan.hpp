@@ -194,8 +194,9 @@ struct PlanResult {
   std::vector<double> headings;  ///< radians in [-π, π), one for each point of the path; empty in the plane
   /// What drives a driven robot along the path, one after the other from the start; empty for the others.
   std::vector<Control> controls;
-  /// From the path's end to the goal, map units, and to goal_heading, radians; 0 where the path ends exactly there.
+  /// From the path's end to the goal, map units; 0 where the path ends exactly there.
   double goal_distance = std::numeric_limits<double>::infinity();
+  /// From the heading at the path's end to goal_heading, radians; 0 where the path ends exactly so.
   double goal_turn = std::numeric_limits<double>::infinity();
   /// Length of the path, map units: of its straight lines and arcs. For Motion::turning plus the angle that the robot
   /// turns times the distance from its reference point to its farthest one (at least a pixel). With

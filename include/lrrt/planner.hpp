@@ -22,8 +22,8 @@ class Planner {
   /// Null where planning is unguided.
   const std::shared_ptr<const RegionPredictor>& predictor() const { return predictor_; }
 
-  /// @throws RequestError when a number of the request is not finite. @throws ModelError, or what else the predictor
-  /// throws, when the prediction fails and PlanOptions::on_predict_error says raise.
+  /// What the predictor throws comes through, too, unless PlanOptions::on_predict_error says otherwise.
+  /// @throws RequestError when a number of the request is not finite. @throws ModelError when the prediction fails.
   PlanResult plan(const PlanRequest& request) const;
 
  private:

@@ -27,21 +27,24 @@ class Session {
  public:
   /// @param robot the map, which is copied, and the robot; start, goal and cancel token do not matter.
   Session(Planner planner, const PlanRequest& robot);
+  /// Forgets everything.
   ~Session();
+  /// Moves a session with all that it knows.
   Session(Session&&) noexcept;
+  /// Moves a session with all that it knows.
   Session& operator=(Session&&) noexcept;
 
   /// The map as it is now.
   const OccupancyMap& map() const;
 
   /// Plans as Planner::plan() does, with the same result.
-  /// @throws RequestError,ModelError as Planner::plan().
+  /// @throws RequestError as Planner::plan(). @throws ModelError likewise.
   PlanResult plan(const Query& query, const CancelToken& cancel = {});
 
   /// Plans many queries; their regions are predicted together, see RegionPredictor::predict_many. The results are those
   /// of plan(), in the order of the queries, and the last one is what replan() goes on from. The time of preparing
   /// together is the first result's.
-  /// @throws RequestError,ModelError as plan(): then there is no result.
+  /// @throws RequestError as plan(), and then there is no result. @throws ModelError likewise.
   std::vector<PlanResult> plan(const std::vector<Query>& queries, const CancelToken& cancel = {});
 
   /// Plans from where the robot is now to the goal of the last query, along the path of the last result as far as it is

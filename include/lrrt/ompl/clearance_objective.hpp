@@ -23,6 +23,7 @@ class ClearanceObjective final : public ompl::base::PathLengthOptimizationObject
   /// @param clearance with a distance above 0. @param map where the robot's reference point may be.
   ClearanceObjective(const ompl::base::SpaceInformationPtr& si, std::shared_ptr<const CollisionMap> map,
                      std::shared_ptr<const MapProjection> projection, const ClearanceCost& clearance);
+  /// The length of a motion and what it costs to come near to obstacles.
   ompl::base::Cost motionCost(const ompl::base::State* from, const ompl::base::State* to) const override;
   /// A Reeds-Shepp curve back may be another one of the same length, which passes elsewhere.
   bool isSymmetric() const override;

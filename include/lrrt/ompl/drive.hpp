@@ -23,7 +23,9 @@ class Drive {
   /// True when a control keeps the limits, but for rounding. Tells nothing of its duration.
   bool allows(const Control& control) const;
 
+  /// Greatest speed forwards, map units per second.
   double speed() const { return speed_; }
+  /// False for a robot that only drives forwards.
   bool can_reverse() const { return reverse_speed_ > 0.0; }
   /// Greatest speed in either direction, map units per second.
   double top_speed() const;

@@ -28,10 +28,12 @@ class DriveSpace final : public ompl::base::SE2StateSpace {
 
   /// A new state's time is 0.
   ompl::base::State* allocState() const override;
+  /// Of position and heading; the time counts for nothing.
   double distance(const ompl::base::State* a, const ompl::base::State* b) const override;
 
   /// Seconds since the start.
   static double time(const ompl::base::State* state);
+  /// Sets the seconds since the start.
   static void set_time(double seconds, ompl::base::State* state);
 
  private:
@@ -43,6 +45,7 @@ class DriveControlSpace final : public ompl::control::RealVectorControlSpace {
  public:
   /// @param seed not 0.
   DriveControlSpace(const ompl::base::StateSpacePtr& space, const Drive& drive, std::uint32_t seed);
+  /// A sampler that draws by Drive::draw().
   ompl::control::ControlSamplerPtr allocDefaultControlSampler() const override;
 
   /// The speed and the turn rate of one of this space's controls, for a duration, seconds.
@@ -64,6 +67,7 @@ class DrivePropagator final : public ompl::control::StatePropagator {
   /// @param duration seconds; a turn on the spot must be of less than half a turn.
   void propagate(const ompl::base::State* state, const ompl::control::Control* control, double duration,
                  ompl::base::State* result) const override;
+  /// What a control leads to is known forwards only.
   bool canPropagateBackward() const override { return false; }
 
   /// How many steps were checked so far.
@@ -81,9 +85,13 @@ class DurationObjective final : public ompl::base::OptimizationObjective {
  public:
   /// @param top_speed map units per second.
   DurationObjective(const ompl::base::SpaceInformationPtr& si, double top_speed);
+  /// Being somewhere costs nothing.
   ompl::base::Cost stateCost(const ompl::base::State* state) const override;
+  /// Seconds from state to state.
   ompl::base::Cost motionCost(const ompl::base::State* from, const ompl::base::State* to) const override;
+  /// The way back may take another time.
   bool isSymmetric() const override { return false; }
+  /// Greatest speed in either direction, map units per second.
   double top_speed() const { return top_speed_; }
 
  private:
@@ -99,9 +107,13 @@ class PoseGoal final : public ompl::base::GoalSampleableRegion {
            std::uint32_t seed);
   /// The larger of the two distances, each as a share of its tolerance: 1 at the region's edge.
   double distanceGoal(const ompl::base::State* state) const override;
+  /// A pose at the goal with a heading that it takes.
   void sampleGoal(ompl::base::State* state) const override;
+  /// One place.
   unsigned int maxSampleCount() const override { return 1; }
+  /// The goal itself.
   const Pose2& pose() const { return goal_; }
+  /// Greatest distance from the goal, map units.
   double tolerance() const { return tolerance_; }
 
  private:

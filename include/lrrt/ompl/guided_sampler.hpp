@@ -19,8 +19,8 @@ namespace lrrt {
 /// A sampler, and the map in whose pixels it speaks: one that may have larger pixels than the map that motions are
 /// checked on.
 struct MapSampler {
-  std::shared_ptr<const OccupancyMap> map;
-  MixedSampler points;
+  std::shared_ptr<const OccupancyMap> map;  ///< the map
+  MixedSampler points;                      ///< the sampler
 };
 
 /// Where guided states come from: points of the map drawn by a MixedSampler, brought to map units. One source may feed

@@ -29,8 +29,8 @@ struct Trace {
 
 /// What a search has to know of a driven robot.
 struct Driver {
-  Drive drive;
-  std::shared_ptr<const DrivePropagator> propagator;
+  Drive drive;                                        ///< its limits
+  std::shared_ptr<const DrivePropagator> propagator;  ///< what checks its motions
 };
 
 /// The space that a search moves in: what a MapSearch has to know of the robot.
