@@ -13,8 +13,9 @@
 
 namespace lrrt {
 
-/// Most pictures that a network is given at once, and most pixels in them, where there are several. More pictures gain
-/// nothing on two cores; a picture of a million pixels keeps them busy by itself.
+/// Most pictures that a network is given at once, and most pixels in them, where there are several. On two cores eight
+/// take a fifth less time than one by one, sixteen hardly less; a picture of a million pixels keeps them busy by
+/// itself.
 inline constexpr std::size_t most_pictures = 8;
 inline constexpr std::size_t most_pixels = most_pictures * 256 * 256;
 
