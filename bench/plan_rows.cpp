@@ -5,15 +5,13 @@
 
 #include "grid_search.hpp"
 #include "lrrt/planner.hpp"
+#include "number_rules.hpp"
 #include "suite.hpp"
 
 namespace lrrt::bench {
 namespace {
 
-constexpr double endless = std::numeric_limits<double>::max();
 constexpr NumberRule counts_or_zero{0, 1e15, "a whole number from 0 on"};
-constexpr NumberRule shares{0, 1, "a share from 0 to 1"};
-constexpr NumberRule lengths{0, endless, "0 or a positive length in map units"};
 constexpr NumberRule factors{1, endless, "a factor from 1 on"};
 constexpr NumberRule details{0, 16384, "a side from 1 to 16384 pixels, or 0 to leave it to the model"};
 

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <limits>
 
+#include "number_rules.hpp"
 #include "suite.hpp"
 
 namespace lrrt::bench {
 namespace {
-
-constexpr double endless = std::numeric_limits<double>::max();
-constexpr NumberRule counts{1, 1e6, "a whole number from 1 to 1000000"};
-constexpr NumberRule lengths{0, endless, "0 or a positive length in map units"};
 
 /// The robot's outline: its corners, or a rectangle.
 std::optional<Polygon> read_outline(const Fields& fields) {

@@ -6,10 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "lrrt/map/footprint.hpp"
+#include "lrrt/map/shortest_path.hpp"
 #include "lrrt/ompl/pose_validity.hpp"
 #include "lrrt/session.hpp"
 #include "lrrt/stopwatch.hpp"
+#include "robot.hpp"
 
 namespace lrrt::bench {
 namespace {
@@ -30,17 +31,17 @@ Pose2 along(const PlanResult& result, double distance) {
   return pose(result.path.size() - 1, result.path.back());
 }
 
-bool fits(const PlanRequest& request, const Pose2& pose) {
-  const OccupancyMap map = inflated(request.map.get().resolved(request.unknown), request.radius);
+bool fits(const PlanRequest& request, const PlanSuite& suite, double scale, const Pose2& pose) {
+  const OccupancyMap map = planning_map(request.map, suite, scale);
   if (!request.outline) return map.is_free(OccupancyMap::pixel_of(map.to_pixel({pose.x, pose.y})));
   return CollisionBody(std::make_shared<const CollisionMap>(map), *request.outline).is_free(pose);
 }
 
 /// Where the robot is after a while: on its path, but for a pixel to the side where it fits there.
-Pose2 moved(const PlanRequest& request, const PlanResult& before, double distance) {
-  const Pose2 on_path = along(before, distance);
+Pose2 moved(const PlanRequest& request, const PlanSuite& suite, double scale, const PlanResult& before) {
+  const Pose2 on_path = along(before, suite.move * scale);
   const Pose2 beside{on_path.x + request.map.get().resolution(), on_path.y, on_path.yaw};
-  return fits(request, beside) ? beside : on_path;
+  return fits(request, suite, scale, beside) ? beside : on_path;
 }
 
 /// The map with a square obstacle.
@@ -62,20 +63,18 @@ PlanResult replanned(const PlanRequest& request, const PlanSuite& suite, const P
                      const std::shared_ptr<const RegionPredictor>& predictor, double scale) {
   const Planner planner(predictor, row.options);
   Session session(planner, request);
-  const PlanResult before =
+  PlanResult before =
       session.plan({request.start, request.goal, request.start_heading, request.goal_heading}, request.cancel);
   if (!before.solved()) return before;
 
   PlanRequest again = request;
   OccupancyMap map = request.map;
   if (row.after == "move") {
-    const Pose2 pose = moved(request, before, suite.move * scale);
+    const Pose2 pose = moved(request, suite, scale, before);
     again.start = {pose.x, pose.y};
     again.start_heading = pose.yaw;
   } else {
-    double length = 0.0;
-    for (std::size_t i = 1; i < before.path.size(); ++i) length += (before.path[i] - before.path[i - 1]).norm();
-    map = with_square(map, along(before, 0.5 * length), suite.obstacle * scale);
+    map = with_square(map, along(before, 0.5 * path_length(before.path)), suite.obstacle * scale);
   }
   again.map = map;
   if (!row.session) return planner.plan(again);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "suite.hpp"
+#include "number_rules.hpp"
 
 #include <algorithm>
 #include <fstream>
@@ -13,8 +14,6 @@ namespace fs = std::filesystem;
 constexpr NumberRule sides{16, 16384, "a side from 16 to 16384 pixels"};
 constexpr NumberRule threads_rule{1, 1024, "a number of threads from 1 to 1024"};
 constexpr NumberRule batches{1, 4096, "a number of predictions from 1 to 4096"};
-constexpr NumberRule levels{5, 2047, "an odd number of blocks from 5 on"};
-constexpr NumberRule counts{1, 1e6, "a whole number from 1 to 1000000"};
 constexpr std::uintmax_t longest_suite = 1 << 20;  // bytes
 
 PredictSuite read_predict_suite(const Fields& fields) {

@@ -148,9 +148,6 @@ void apply(const Overrides& overrides, Suite& suite);
 /// Everything that a suite says, defaults spelled out. parse_suite() reads it back.
 Json to_json(const Suite& suite);
 
-/// Of one search.
-inline constexpr NumberRule time_limits{1e-6, 1e9, "a number of seconds from 1e-06 to 1e+09"};
-
 /// @param key of the number of mazes. @throws SuiteError when so many pictures of that side are more than fit into the
 /// memory of most machines.
 void check_pixels(const Fields& fields, const std::string& key, int count, int side);

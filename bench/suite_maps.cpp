@@ -3,20 +3,17 @@
 #include <limits>
 
 #include "maze.hpp"
+#include "number_rules.hpp"
 #include "suite.hpp"
 
 namespace lrrt::bench {
 namespace {
 
-constexpr double endless = std::numeric_limits<double>::max();
 constexpr NumberRule any_number{-endless, endless, "a number"};
-constexpr NumberRule counts{1, 1e6, "a whole number from 1 to 1000000"};
 constexpr NumberRule counts_or_all{0, 1e6, "0 (all) or a whole number up to 1000000"};
-constexpr NumberRule levels{5, 2047, "an odd number of blocks from 5 on"};
 constexpr NumberRule sides{5, 16384, "a side from 5 to 16384 pixels"};
 constexpr NumberRule sides_or_zero{0, 16384, "a side from 5 to 16384 pixels, or 0 for the map as it is"};
 constexpr NumberRule tiles{32, 16384, "a side from 32 to 16384 pixels"};
-constexpr NumberRule shares{0, 1, "a share from 0 to 1"};
 constexpr NumberRule far_shares{1e-6, 1, "a share of the longest way, above 0 and up to 1"};
 constexpr NumberRule scales{1e-6, 1e6, "a factor from 1e-6 to 1e6"};
 

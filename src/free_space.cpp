@@ -51,7 +51,7 @@ OccupancyMap with_room_somewhere(const CollisionMap& map, double radius) {
 bool starts_at_goal(const PlanRequest& request, const PlanOptions& options) {
   if (is_driven(request.motion)) {
     return (request.goal - request.start).norm() <= options.goal_tolerance &&
-           turn_to_goal(request) <= options.heading_tolerance;
+           angle_between(request.goal_heading, request.start_heading) <= options.heading_tolerance;
   }
   return request.start == request.goal && wrapped_angle(request.start_heading) == wrapped_angle(request.goal_heading);
 }
@@ -144,10 +144,6 @@ double default_range(const Prepared& prepared, const PlanRequest& request) {
   return request.motion == Motion::dubins || request.motion == Motion::reeds_shepp || request.motion == Motion::car
              ? std::max(range, request.turning_radius)
              : range;
-}
-
-double turn_to_goal(const PlanRequest& request) {
-  return std::abs(wrapped_angle(request.goal_heading - request.start_heading));
 }
 
 Pose2 pose(const Eigen::Vector2d& point, double heading) {

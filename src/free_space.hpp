@@ -50,9 +50,6 @@ class FreeSpace {
   std::shared_ptr<const CollisionBody> body_;
 };
 
-/// From start_heading to goal_heading the shorter way, radians, never negative.
-double turn_to_goal(const PlanRequest& request);
-
 /// The range for a request that leaves it to the map, map units.
 double default_range(const Prepared& prepared, const PlanRequest& request);
 

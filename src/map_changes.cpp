@@ -69,13 +69,4 @@ MapChanges changes_between(const OccupancyMap& map, const OccupancyMap& part) {
   return {map.with_cells(std::move(cells)), std::move(boxes)};
 }
 
-PixelBox widened(const PixelBox& box, double by) {
-  const int margin = static_cast<int>(std::min(std::ceil(by), 1e6));
-  return {box.c - margin, box.r - margin, box.width + 2 * margin, box.height + 2 * margin};
-}
-
-bool overlap(const PixelBox& a, const PixelBox& b) {
-  return a.c < b.c + b.width && b.c < a.c + a.width && a.r < b.r + b.height && b.r < a.r + a.height;
-}
-
 }  // namespace lrrt

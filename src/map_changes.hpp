@@ -17,10 +17,4 @@ struct MapChanges {
 /// @throws MapError when their resolutions differ, their pixels do not coincide or the part leaves the map.
 MapChanges changes_between(const OccupancyMap& map, const OccupancyMap& part);
 
-/// A box with so many pixels more on every side; it may leave the map.
-PixelBox widened(const PixelBox& box, double by);
-
-/// True when two boxes share a pixel.
-bool overlap(const PixelBox& a, const PixelBox& b);
-
 }  // namespace lrrt

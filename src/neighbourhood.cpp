@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "map_changes.hpp"
 #include "steps.hpp"
 
 namespace lrrt {
@@ -18,10 +17,7 @@ constexpr std::size_t most_iterations = 500;
 OccupancyMap part_of(const PlanRequest& robot, const PixelBox& box) {
   const OccupancyMap& map = robot.map.get();
   const PixelBox wide = widened(box, 2.0 + reach_of(robot) / map.resolution());
-  const int c = std::clamp(wide.c, 0, map.width() - 1);
-  const int r = std::clamp(wide.r, 0, map.height() - 1);
-  return map.cropped({c, r, std::clamp(wide.c + wide.width - c, 1, map.width() - c),
-                      std::clamp(wide.r + wide.height - r, 1, map.height() - r)});
+  return map.cropped(clipped(wide, map.width(), map.height()));
 }
 
 /// The request on a part of its map. The part must outlive it.

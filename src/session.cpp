@@ -43,7 +43,10 @@ struct Gap {
 class Session::Memory {
  public:
   Memory(Planner planner, const PlanRequest& robot)
-      : planner_(std::move(planner)), map_(robot.map.get()), robot_(robot), reach_(reach_of(robot)) {
+      : planner_(std::move(planner)),
+        map_(robot.map.get()),
+        robot_(robot),
+        reach_(std::max(map_.resolution(), reach_of(robot))) {
     robot_.map = map_;
     robot_.start = robot_.goal = map_.center({0, 0});
     check(robot_, planner_.options());
@@ -93,8 +96,7 @@ class Session::Memory {
       result.status = PlanStatus::solved;
       mended->tell(robot_.motion, result);
       result.goal_distance = (result.path.back() - query.goal).norm();
-      result.goal_turn =
-          result.headings.empty() ? 0.0 : std::abs(wrapped_angle(result.headings.back() - query.goal_heading));
+      result.goal_turn = result.headings.empty() ? 0.0 : angle_between(result.headings.back(), query.goal_heading);
       result.timings.total = result.timings.plan = watch.total_ms();
       result.cost_history = {{result.timings.plan, result.iterations, result.cost}};
       keep(std::move(*mended));
@@ -165,7 +167,7 @@ class Session::Memory {
   }
 
   Trail trail_of(const PlanResult& result) const {
-    return {result, robot_.motion, std::max(map_.resolution(), reach_), piece_pixels * map_.resolution()};
+    return {result, robot_.motion, reach_, piece_pixels * map_.resolution()};
   }
 
   void keep(Trail trail) {
@@ -182,7 +184,7 @@ class Session::Memory {
   std::optional<Trail> mend(const Pose2& start, const CancelToken& cancel, PlanResult& result) {
     // What a driven robot does, and what clearance costs, is not told by the poses of a path alone.
     if (trail_.empty() || is_driven(robot_.motion) || planner_.options().clearance > 0.0) return std::nullopt;
-    const std::size_t nearest = trail_.nearest(start, std::max(map_.resolution(), reach_));
+    const std::size_t nearest = trail_.nearest(start, reach_);
     Trail mended;
     std::size_t done = nearest;  // the trail is dealt with up to here
     double kept = 0.0;
@@ -277,7 +279,7 @@ class Session::Memory {
   Planner planner_;
   OccupancyMap map_;
   PlanRequest robot_;  ///< on that map
-  double reach_;       ///< map units
+  double reach_;       ///< of its farthest point, at least a pixel; map units
   std::optional<FreeSpace> space_;
   std::optional<Query> last_;
   Trail trail_;                    ///< of the last result; empty when there was no path

@@ -46,7 +46,7 @@ void arrive(const PlanRequest& request, PlanResult& result) {
   result.path = {request.start, request.start};
   if (request.motion != Motion::plane) result.headings.assign(2, wrapped_angle(request.start_heading));
   result.goal_distance = (request.goal - request.start).norm();
-  result.goal_turn = request.motion == Motion::plane ? 0.0 : turn_to_goal(request);
+  result.goal_turn = request.motion == Motion::plane ? 0.0 : angle_between(request.goal_heading, request.start_heading);
   result.cost = 0.0;
   result.cost_history = {{0.0, 0, 0.0}};
 }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "lrrt/ompl/map_projection.hpp"
+#include "lrrt/ompl/pose_motion.hpp"
 
 namespace lrrt {
 namespace {
@@ -14,17 +15,11 @@ double apart(const Pose2& a, const Pose2& b) {
   return std::hypot(b.x - a.x, b.y - a.y);
 }
 
-double turned(const Pose2& a, const Pose2& b) {
-  return std::abs(wrapped_angle(b.yaw - a.yaw));
-}
-
 /// What a short piece of a path costs: a straight line, or one arc.
 double piece_cost(const Pose2& a, const Pose2& b, Motion motion, double reach) {
-  const double chord = apart(a, b);
-  if (motion == Motion::plane) return chord;
-  if (motion == Motion::turning) return chord + reach * turned(a, b);
-  const double half = 0.5 * turned(a, b);
-  return half < 1e-6 ? chord : chord * half / std::sin(half);
+  if (motion == Motion::plane) return apart(a, b);
+  if (motion == Motion::turning) return apart(a, b) + reach * angle_between(a.yaw, b.yaw);
+  return std::abs(arc_length(a, b));
 }
 
 }  // namespace
@@ -58,7 +53,7 @@ std::size_t Trail::nearest(const Pose2& pose, double reach) const {
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < size(); ++i) {
-    const double distance = apart(poses_[i], pose) + reach * turned(poses_[i], pose);
+    const double distance = apart(poses_[i], pose) + reach * angle_between(poses_[i].yaw, pose.yaw);
     if (distance >= least) continue;
     least = distance;
     best = i;

@@ -145,10 +145,7 @@ def plan(
             a predictor and a model are given.
         ModelError: the model cannot be loaded or fails, with ``on_predict_error="raise"``.
     """
-    if predictor is not None and model is not None:
-        raise RequestError("predictor and model are both given: expected one of them; the other marks no region")
-    if predictor is None and strategy != "uniform":
-        predictor = load_predictor(model, on_predict_error)
+    predictor = choose_predictor(predictor, model, strategy, on_predict_error)
     settings = _core.Settings(
         planner=planner,
         strategy=strategy,
@@ -180,8 +177,20 @@ def plan(
     return _core.plan(settings, predictor, map, as_point(start), as_point(goal), start_heading, goal_heading, cancel)
 
 
-def load_predictor(model: str | os.PathLike[str] | None, on_predict_error: str) -> RegionPredictor:
-    """The predictor of a model, or one that tells at its first prediction why there is none."""
+def choose_predictor(
+    predictor: RegionPredictor | None, model: str | os.PathLike[str] | None, strategy: str, on_predict_error: str
+) -> RegionPredictor | None:
+    """What marks the region, by the options of ``plan``.
+
+    Raises:
+        RequestError: both a predictor and a model are given.
+        ModelError: the model cannot be loaded, with ``on_predict_error="raise"``; else the predictor tells at its first
+            prediction why it has none.
+    """
+    if predictor is not None and model is not None:
+        raise RequestError("predictor and model are both given: expected one of them; the other marks no region")
+    if predictor is not None or strategy == "uniform":
+        return predictor
     try:
         return default_predictor() if model is None else OnnxPredictor(os.fspath(model))
     except ModelError as error:

@@ -8,8 +8,8 @@ from collections.abc import Iterable
 from typing import Any
 
 from lrrt import _core
-from lrrt._core import CancelToken, OccupancyMap, PlanResult, RegionPredictor, RequestError
-from lrrt.planning import Point, as_point, load_predictor
+from lrrt._core import CancelToken, OccupancyMap, PlanResult, RegionPredictor
+from lrrt.planning import Point, as_point, choose_predictor
 
 #: (start, goal) or (start, goal, start_heading, goal_heading)
 QueryLike = tuple[Point, Point] | tuple[Point, Point, float, float]
@@ -39,11 +39,12 @@ class Session:
     def __init__(self, map: OccupancyMap, *, predictor: RegionPredictor | None = None, **options: Any) -> None:
         if options.get("outline") is not None:
             options["outline"] = [as_point(corner) for corner in options["outline"]]
-        model = options.pop("model", None)
-        if predictor is not None and model is not None:
-            raise RequestError("predictor and model are both given: expected one of them; the other marks no region")
-        if predictor is None and options.get("strategy", "frontier") != "uniform":
-            predictor = load_predictor(model, options.get("on_predict_error", "raise"))
+        predictor = choose_predictor(
+            predictor,
+            options.pop("model", None),
+            options.get("strategy", "frontier"),
+            options.get("on_predict_error", "raise"),
+        )
         self._session = _core.Session(_core.Settings(**options), predictor, map)
         self._lock = threading.Lock()
 

@@ -5,12 +5,6 @@
 #include <opencv2/imgproc.hpp>
 
 namespace lrrt {
-PixelBox united(const PixelBox& a, const PixelBox& b) {
-  const int c = std::min(a.c, b.c);
-  const int r = std::min(a.r, b.r);
-  return {c, r, std::max(a.c + a.width, b.c + b.width) - c, std::max(a.r + a.height, b.r + b.height) - r};
-}
-
 Components::Components(const OccupancyMap& map) : Components(map.width(), map.height(), map.free_mask()) {}
 
 Components::Components(int width, int height, const std::vector<std::uint8_t>& mask)

@@ -21,10 +21,6 @@ constexpr double tau = 6.283185307179586;
 
 using PoseState = ob::SE2StateSpace::StateType;
 
-double angle_between(double a, double b) {
-  return std::abs(std::remainder(a - b, tau));
-}
-
 class DriveControlSampler final : public oc::ControlSampler {
  public:
   DriveControlSampler(const oc::ControlSpace* space, const Drive& drive, std::uint32_t seed)

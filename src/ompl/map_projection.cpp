@@ -19,6 +19,10 @@ double wrapped_angle(double angle) {
   return turned >= pi ? -pi : turned;
 }
 
+double angle_between(double a, double b) {
+  return std::abs(wrapped_angle(a - b));
+}
+
 Eigen::Vector2d PlaneProjection::read(const ompl::base::State* state) const {
   const double* values = state->as<PlaneState>()->values;
   return {values[0], values[1]};

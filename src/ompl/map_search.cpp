@@ -174,7 +174,7 @@ void MapSearch::read_path(PlanResult& result) const {
   result.controls = std::move(trace->controls);
   result.cost = trace->cost;
   result.goal_distance = (result.path.back() - Eigen::Vector2d(goal_.x, goal_.y)).norm();
-  result.goal_turn = result.headings.empty() ? 0.0 : std::abs(wrapped_angle(result.headings.back() - goal_.yaw));
+  result.goal_turn = result.headings.empty() ? 0.0 : angle_between(result.headings.back(), goal_.yaw);
   result.timings.plan = limits_->elapsed_ms();
   const bool better = result.cost_history.empty() || result.cost < result.cost_history.back().cost;
   if (better) result.cost_history.push_back({result.timings.plan, limits_->iterations(), result.cost});

@@ -51,6 +51,12 @@ Pose2 along_arc(const Pose2& from, double length, double turn) {
   return {from.x + chord * std::cos(direction), from.y + chord * std::sin(direction), from.yaw + turn};
 }
 
+double arc_length(const Pose2& from, const Pose2& to) {
+  const double half = 0.5 * std::remainder(to.yaw - from.yaw, tau);
+  const double ahead = std::cos(from.yaw + half) * (to.x - from.x) + std::sin(from.yaw + half) * (to.y - from.y);
+  return std::copysign(half == 0.0 ? distance(from, to) : distance(from, to) * half / std::sin(half), ahead);
+}
+
 void PoseMotion::append(double length, double curvature) {
   if (count_ == 0) speed_ = 0.0;
   Piece& piece = pieces_.at(count_++);
@@ -61,10 +67,7 @@ void PoseMotion::append(double length, double curvature) {
 
 PoseMotion PoseMotion::arc(const Pose2& from, const Pose2& to, double reach) {
   PoseMotion motion(from, to, reach);
-  const double chord = std::hypot(to.x - from.x, to.y - from.y);
-  const double half = 0.5 * motion.turn_;
-  const double ahead = std::cos(from.yaw + half) * (to.x - from.x) + std::sin(from.yaw + half) * (to.y - from.y);
-  const double length = std::copysign(half == 0.0 ? chord : chord * half / std::sin(half), ahead);
+  const double length = arc_length(from, to);
   if (length != 0.0) motion.append(length, motion.turn_ / length);
   return motion;
 }

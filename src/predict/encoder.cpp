@@ -25,9 +25,7 @@ PixelBox part_that_matters(const OccupancyMap& map, Pixel start, Pixel goal) {
   const Flood around_start(free, map.width(), map.height(), start);
   PixelBox box = around_start.box();
   if (!around_start.reached(goal)) box = united(box, Flood(free, map.width(), map.height(), goal).box());
-  const int c = std::max(0, box.c - 1);
-  const int r = std::max(0, box.r - 1);
-  return {c, r, std::min(map.width(), box.c + box.width + 1) - c, std::min(map.height(), box.r + box.height + 1) - r};
+  return clipped(widened(box, 1.0), map.width(), map.height());
 }
 
 InputFit fit(const OccupancyMap& map, int size, const PixelBox& crop) {

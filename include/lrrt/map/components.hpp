@@ -7,9 +7,6 @@
 
 namespace lrrt {
 
-/// Smallest box that holds both boxes.
-PixelBox united(const PixelBox& a, const PixelBox& b);
-
 /// The connected components of a set of pixels.
 ///
 /// Neighbours share an edge: a motion that touches no blocked pixel cannot pass between two diagonal ones, so two free

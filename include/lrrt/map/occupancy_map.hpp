@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "lrrt/map/pixel_box.hpp"
+
 namespace lrrt {
 
 /// State of one pixel of a map.
@@ -29,14 +31,6 @@ struct Pixel {
   friend bool operator==(Pixel a, Pixel b) { return a.c == b.c && a.r == b.r; }
   /// True for another pixel.
   friend bool operator!=(Pixel a, Pixel b) { return !(a == b); }
-};
-
-/// Axis-aligned box of pixels: columns [c, c + width), rows [r, r + height).
-struct PixelBox {
-  int c = 0;       ///< first column
-  int r = 0;       ///< first row
-  int width = 0;   ///< columns
-  int height = 0;  ///< rows
 };
 
 /// A position and a heading in the plane: of a robot, or of a map's lower-left corner in its frame.

@@ -11,6 +11,9 @@ namespace lrrt {
 /// An angle in [-π, π), the range of OMPL's SO2StateSpace; within it the angle itself.
 double wrapped_angle(double angle);
 
+/// The shorter way from one angle to another, radians, never negative.
+double angle_between(double a, double b);
+
 /// How a state space touches the map: where a state stands in the map's plane, in map units.
 class MapProjection {
  public:

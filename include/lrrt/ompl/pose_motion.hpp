@@ -17,6 +17,10 @@ namespace lrrt {
 /// @param length map units; negative backwards. @param turn radians; positive from x towards y.
 Pose2 along_arc(const Pose2& from, double length, double turn);
 
+/// Length of the one arc, or straight line, from pose to pose, map units; negative where it leads backwards. Where none
+/// does, that of one that misses the second pose. The inverse of along_arc().
+double arc_length(const Pose2& from, const Pose2& to);
+
 /// The motion between two poses: a straight line with an even turn, or up to five arcs and straight lines.
 ///
 /// Its parameter t runs from 0 to 1 at a pace at which the robot's farthest point could always be moved alike: on arcs,
