@@ -8,10 +8,12 @@
 #include "campaign.hpp"
 #include "clearance.hpp"
 #include "grid_search.hpp"
+#include "hybrid_search.hpp"
 #include "lrrt/planner.hpp"
 #include "lrrt/predict/onnx_predictor.hpp"
 #include "made_regions.hpp"
 #include "models.hpp"
+#include "portfolio.hpp"
 #include "problems.hpp"
 #include "reference.hpp"
 #include "replanning.hpp"
@@ -121,8 +123,14 @@ Json run_job(const PlanJob& job) {
     const Planner planner(job.predictor, job.row.options);
     return planner.plan(request);
   };
-  const bool on_grid = job.row.options.planner == grid_search_name;
-  const PlanResult result = on_grid ? grid_search(p, *job.suite) : planned();
+  const auto answered = [&] {
+    const std::string& name = job.row.options.planner;
+    if (name == grid_search_name) return grid_search(p, *job.suite);
+    if (name == hybrid_search_name) return hybrid_search(p, *job.suite, job.row, job.cancel);
+    if (name == portfolio_name) return portfolio_search(p, *job.suite, job.row, job.cancel);
+    return planned();
+  };
+  const PlanResult result = answered();
   // Afterwards: the search for the optimum must not warm the planner's caches.
   const double nan = std::numeric_limits<double>::quiet_NaN();
   return row_json(result, job, result.solved() ? job.optimum->of(p, *job.suite) : nan);

@@ -4,8 +4,10 @@
 #include <sstream>
 
 #include "grid_search.hpp"
+#include "hybrid_search.hpp"
 #include "lrrt/planner.hpp"
 #include "number_rules.hpp"
+#include "portfolio.hpp"
 #include "suite.hpp"
 
 namespace lrrt::bench {
@@ -53,13 +55,39 @@ void check_grid_search(const Fields& fields, const PlanRow& row, const PlanSuite
                     " searches the grid: expected 'strategy: uniform', 'stop: first', 'motion: plane' and no outline");
 }
 
+/// Hybrid A* takes a car with an outline to its first path, unguided.
+void check_hybrid_search(const Fields& fields, const PlanRow& row, const PlanSuite& robot) {
+  const bool car = row.motion == "dubins" || row.motion == "reeds_shepp";
+  if (row.strategy == "uniform" && row.stop == "first" && car && row.turning_radius > 0.0 && robot.outline) return;
+  fields.refuse_all(std::string(hybrid_search_name) +
+                    " searches a grid of poses: expected 'strategy: uniform', 'stop: first', 'motion: dubins' or "
+                    "'reeds_shepp', a turning_radius and an outline");
+}
+
+/// OMPL's hybrid puts together pieces of paths both ways, and is not guided.
+void check_portfolio(const Fields& fields, const PlanRow& row, const PlanSuite& robot) {
+  const bool body = row.motion == "turning" || (row.motion == "reeds_shepp" && row.turning_radius > 0.0);
+  const bool able = row.motion == "plane" ? !robot.outline : body && robot.outline;
+  if (row.strategy == "uniform" && row.stop != "factor" && able) return;
+  fields.refuse_all(
+      std::string(portfolio_name) +
+      " is OMPL's own: expected 'strategy: uniform', 'stop: first' or 'limit', and 'motion: plane' without "
+      "an outline, or 'turning' or 'reeds_shepp' with one");
+}
+
+/// Whether a row is no planner of the library's, and then whether it makes sense.
+bool check_rival(const Fields& fields, const PlanRow& row, const PlanSuite& robot) {
+  const std::string& name = row.options.planner;
+  if (name == grid_search_name) check_grid_search(fields, row, robot);
+  if (name == hybrid_search_name) check_hybrid_search(fields, row, robot);
+  if (name == portfolio_name) check_portfolio(fields, row, robot);
+  return name == grid_search_name || name == hybrid_search_name || name == portfolio_name;
+}
+
 /// Asks the library whether options and robot make sense, with a map on which no query gets beyond that.
 void check(const Fields& fields, const PlanRow& row, const PlanSuite& robot) {
   if (row.session && row.after.empty()) fields.refuse("session", "'after: move' or 'after: obstacle' with it");
-  if (row.options.planner == grid_search_name) {
-    check_grid_search(fields, row, robot);
-    return;
-  }
+  if (check_rival(fields, row, robot)) return;
   const OccupancyMap closed(1, 1, {Cell::occupied});
   PlanRequest request{closed, {0.5, 0.5}, {0.5, 0.5}};
   request.outline = robot.outline;

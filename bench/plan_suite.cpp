@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <limits>
 
 #include "number_rules.hpp"
@@ -32,6 +33,21 @@ bool read_reference(const Fields& fields, bool headings) {
   return wanted;
 }
 
+/// Whether a car can drive from start to goal is asked for the robot of a row.
+void check_drivable(const Fields& fields, const PlanSuite& suite) {
+  const auto known = [&](const std::string& motion) {
+    return suite.outline &&
+           std::any_of(suite.rows.begin(), suite.rows.end(), [&](const PlanRow& row) { return row.motion == motion; });
+  };
+  for (const MapSource& source : suite.maps) {
+    for (const QuerySource& query : source.queries) {
+      if (query.drivable.empty() || known(query.drivable)) continue;
+      fields.refuse_all("'drivable: " + query.drivable + "' of '" + source.name +
+                        "': expected an outline and a row with that motion");
+    }
+  }
+}
+
 }  // namespace
 
 PlanSuite read_plan_suite(const Fields& fields) {
@@ -48,6 +64,7 @@ PlanSuite read_plan_suite(const Fields& fields) {
   fields.require("maps", "a list of maps");
   suite.rows = read_plan_rows(fields, suite);
   suite.maps = read_map_sources(fields, suite.has_headings());
+  check_drivable(fields, suite);
   std::vector<std::string> names;
   for (const PlanRow& row : suite.rows) names.push_back(row.name);
   suite.baseline = fields.word("baseline", names.front(), names);

@@ -97,6 +97,21 @@ Query far_pair(const NamedMap& named, const Ground& ground, const std::vector<Pi
   refuse(named, "chance found no start and goal so far apart at which the robot fits: expected a smaller 'far'");
 }
 
+/// The first pair drawn, or the first between which a car can drive.
+template <typename Draw>
+Query drivable_pair(const NamedMap& named, const std::optional<HybridSearch>& car, const Draw& draw) {
+  constexpr int pairs = 50;
+  constexpr std::size_t most_poses = 200'000;  // a second or so
+  for (int k = 0; k < pairs; ++k) {
+    const Query query = draw();
+    const auto long_enough = [](std::size_t tried) { return tried >= most_poses; };
+    if (!car || !car->find(query.start, query.goal, long_enough).poses.empty()) return query;
+  }
+  refuse(named,
+         "chance found no start and goal between which the car can drive: expected a smaller robot or turning "
+         "radius, a smaller 'far', or no 'drivable'");
+}
+
 std::vector<Query> random_pairs(const QuerySource& source, const NamedMap& named, const Ground& ground) {
   const OccupancyMap& room = ground.room();
   const Components components(room);
@@ -109,10 +124,15 @@ std::vector<Query> random_pairs(const QuerySource& source, const NamedMap& named
   }
   const double diagonal = std::hypot(components.box(label).width, components.box(label).height);
   Random random(source.seed);
+  const auto draw = [&] {
+    return source.far > 0.0 ? far_pair(named, ground, pixels, source.far * longest, random)
+                            : apart_pair(named, ground, pixels, source.apart * diagonal, random);
+  };
+  std::optional<HybridSearch> car;
+  if (!source.drivable.empty()) car.emplace(ground.car(source.drivable));
   std::vector<Query> queries;
   for (int i = 0; i < source.count; ++i) {
-    queries.push_back(source.far > 0.0 ? far_pair(named, ground, pixels, source.far * longest, random)
-                                       : apart_pair(named, ground, pixels, source.apart * diagonal, random));
+    queries.push_back(drivable_pair(named, car, draw));
     queries.back().name = "random #" + std::to_string(i);
   }
   return queries;
@@ -154,18 +174,23 @@ std::vector<Query> scenario_queries(const QuerySource& source, const NamedMap& n
 }  // namespace
 
 Ground::Ground(const OccupancyMap& map, const PlanSuite& suite, double scale)
-    : headings_(suite.has_headings()), grown_(planning_map(map, suite, scale)), room_(grown_) {
+    : suite_(suite), scale_(scale), room_(planning_map(map, suite, scale)) {
   const std::optional<Polygon> outline = outline_at(suite, scale);
   if (!outline) return;
-  room_ = inflated(grown_, outline->inscribed_radius());
-  field_ = std::make_unique<const DistanceField>(grown_);
-  walk_ = std::make_unique<const FootprintWalk>(grown_, *field_, *outline);
+  body_ = std::make_shared<const CollisionBody>(std::make_shared<const CollisionMap>(room_), *outline);
+  room_ = inflated(room_, outline->inscribed_radius());
 }
 
 std::optional<Pose2> Ground::draw(const Eigen::Vector2d& place, Random& random) const {
-  const Pose2 pose{place.x(), place.y(), headings_ ? random.uniform(-pi, pi) : 0.0};
-  if (walk_ && !walk_->is_free(pose)) return std::nullopt;
+  const Pose2 pose{place.x(), place.y(), has_headings() ? random.uniform(-pi, pi) : 0.0};
+  if (body_ && !body_->is_free(pose)) return std::nullopt;
   return pose;
+}
+
+HybridSearch Ground::car(const std::string& motion) const {
+  const auto drives = [&](const PlanRow& row) { return row.motion == motion; };
+  const auto row = std::find_if(suite_.rows.begin(), suite_.rows.end(), drives);
+  return {body_, room_, motion_from_string(motion), row->turning_radius * scale_};
 }
 
 std::vector<Query> queries_of(const QuerySource& source, const NamedMap& named, const Ground& ground,

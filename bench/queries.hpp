@@ -8,9 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "lrrt/map/distance_field.hpp"
+#include "hybrid_search.hpp"
 #include "lrrt/map/occupancy_map.hpp"
-#include "lrrt/map/swept_footprint.hpp"
 #include "lrrt/sampling/random.hpp"
 #include "suite.hpp"
 
@@ -34,24 +33,26 @@ struct Query {
 /// Where a suite's robot may stand on one map.
 class Ground {
  public:
-  /// @param map with unknown pixels. @param scale see MapSource.
+  /// @param map with unknown pixels. @param suite must outlive this. @param scale see MapSource.
   Ground(const OccupancyMap& map, const PlanSuite& suite, double scale);
 
   /// The map in which the largest disc around the reference point that the robot holds is a point. Places that are not
   /// joined here are not joined for the robot.
   const OccupancyMap& room() const { return room_; }
-  bool has_headings() const { return headings_; }
+  bool has_headings() const { return suite_.has_headings(); }
   /// A place and, where there are headings, a random one. @return nothing where the robot touches something.
   std::optional<Pose2> draw(const Eigen::Vector2d& place, Random& random) const;
   /// The same for the centre of a pixel of the room.
   std::optional<Pose2> draw(Pixel pixel, Random& random) const { return draw(room_.center(pixel), random); }
+  /// What tells whether a car can drive from pose to pose: that of the suite's first row with the motion. There is one,
+  /// and an outline.
+  HybridSearch car(const std::string& motion) const;
 
  private:
-  bool headings_;
-  OccupancyMap grown_;  ///< by the radius alone
+  const PlanSuite& suite_;
+  double scale_;
   OccupancyMap room_;
-  std::unique_ptr<const DistanceField> field_;  ///< of the grown map; null without an outline
-  std::unique_ptr<const FootprintWalk> walk_;
+  std::shared_ptr<const CollisionBody> body_;  ///< null without an outline
 };
 
 /// The queries that a source draws on a map. The same arguments give the same queries.

@@ -24,9 +24,11 @@ struct QuerySource {
     scen,      ///< a MovingAI scenario list
   };
   Kind kind = Kind::farthest;
-  int count = 1;           ///< random: pairs a map; scen: so many of the list, evenly spread, 0 for all
-  double apart = 0.5;      ///< random: least straight distance, as a share of the component's diagonal
-  double far = 0.0;        ///< random: if above 0, instead: least walking distance, as a share of the longest way
+  int count = 1;       ///< random: pairs a map; scen: so many of the list, evenly spread, 0 for all
+  double apart = 0.5;  ///< random: least straight distance, as a share of the component's diagonal
+  double far = 0.0;    ///< random: if above 0, instead: least walking distance, as a share of the longest way
+  /// random: a motion; only pairs between which HybridSearch finds a way for it. Empty for no such condition.
+  std::string drivable;
   std::uint64_t seed = 1;  ///< random
   Pose2 start{};           ///< points: map units, radians
   Pose2 goal{};            ///< points: map units, radians

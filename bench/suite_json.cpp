@@ -14,10 +14,12 @@ Json to_json(const QuerySource& query, bool headings) {
   switch (query.kind) {
     case QuerySource::Kind::farthest:
       break;
-    case QuerySource::Kind::random:
-      if (query.far > 0.0)
-        return {{"kind", "random"}, {"count", query.count}, {"far", query.far}, {"seed", query.seed}};
-      return {{"kind", "random"}, {"count", query.count}, {"apart", query.apart}, {"seed", query.seed}};
+    case QuerySource::Kind::random: {
+      Json json = {{"kind", "random"}, {"count", query.count}, {"seed", query.seed}};
+      query.far > 0.0 ? json["far"] = query.far : json["apart"] = query.apart;
+      if (!query.drivable.empty()) json["drivable"] = query.drivable;
+      return json;
+    }
     case QuerySource::Kind::points:
       return {{"kind", "points"}, {"start", place(query.start, headings)}, {"goal", place(query.goal, headings)}};
     case QuerySource::Kind::scen: {

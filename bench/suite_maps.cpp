@@ -27,7 +27,7 @@ Pose2 place(const Fields& fields, const std::string& key, bool headings) {
 }
 
 QuerySource read_random(const Fields& fields) {
-  fields.allow_only({"kind", "count", "apart", "far", "seed"});
+  fields.allow_only({"kind", "count", "apart", "far", "drivable", "seed"});
   QuerySource query;
   query.kind = QuerySource::Kind::random;
   query.count = static_cast<int>(fields.count("count", query.count, counts));
@@ -36,6 +36,7 @@ QuerySource read_random(const Fields& fields) {
   if (fields.has("apart") && fields.has("far")) {
     fields.refuse("far", "either 'apart' (as the crow flies) or 'far' (walking), not both");
   }
+  if (fields.has("drivable")) query.drivable = fields.word("drivable", "", {"dubins", "reeds_shepp"});
   query.seed = fields.seed("seed", query.seed);
   return query;
 }

@@ -56,7 +56,10 @@ Stop stop_from_string(const std::string& word);
 
 /// What finds the nodes of a tree that are near.
 enum class Neighbors {
-  grid,  ///< GridNeighbors for RRT, RRT-Connect, RRT* and its kin: a share of OMPL's time, and the same nodes
+  /// GridNeighbors for RRT, RRT-Connect, RRT* and its kin in the plane: a share of OMPL's time, and the same nodes. For
+  /// RRT-Connect with Motion::dubins a second tree that grows along curves that lead to the goal, where OMPL's takes
+  /// curves that lead away from it.
+  grid,
   ompl,  ///< what OMPL itself takes: for comparisons with OMPL as it ships
 };
 
@@ -154,7 +157,7 @@ struct PlanOptions {
   std::size_t iteration_limit = std::numeric_limits<std::size_t>::max();
   std::uint64_t seed = 1;                 ///< same seed, same result on one thread (unless time ends the search)
   bool keep_tree = false;                 ///< return the tree's edges
-  Neighbors neighbors = Neighbors::grid;  ///< time only: the result is the same
+  Neighbors neighbors = Neighbors::grid;  ///< in the plane a matter of time only
   bool simplify = false;                  ///< spend what is left of the time limit on shortening the path at the end
   /// A failure is every std::exception of the predictor, and a region of another size than the map's. A RequestError is
   /// none: then the request is at fault, and it is raised either way.

@@ -124,9 +124,9 @@ void ForwardSpace::interpolate(const ob::State* from, const ob::State* to, doubl
     if (t <= 0.0 && from != state) copyState(state, from);
     return;
   }
-  if (first_time) path = curve(from, to);
+  if (first_time) path = backwards_ ? curve(to, from) : curve(from, to);
   first_time = false;
-  ob::DubinsStateSpace::interpolate(from, path, t, state);
+  ob::DubinsStateSpace::interpolate(backwards_ ? to : from, path, backwards_ ? 1.0 - t : t, state);
 }
 
 }  // namespace lrrt

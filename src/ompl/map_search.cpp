@@ -57,6 +57,7 @@ ob::ScopedState<> MapSearch::state_at(const Pose2& pose) const {
   ob::ScopedState<> state(space_.si);
   space_.projection->write({pose.x, pose.y}, state.get());
   if (space_.projection->has_heading()) space_.projection->write_heading(pose.yaw, state.get());
+  if (space_.driver) DriveSpace::set_time(0.0, state.get());
   return state;
 }
 

@@ -27,6 +27,7 @@
 #include <memory>
 #include <type_traits>
 
+#include "directed_tree.hpp"
 #include "lrrt/error.hpp"
 #include "lrrt/ompl/grid_neighbors.hpp"
 
@@ -67,10 +68,17 @@ class Seeded final : public Planner {
   Seeded(const ob::SpaceInformationPtr& si, const PlannerSettings& settings) : Planner(si) {
     if constexpr (has_random_numbers<Planner>) this->rng_.setLocalSeed(settings.seed);
     if (settings.grid) use_grid(settings.range);
+    if (settings.grid) use_directions();
     // OMPL 1.5 warns of its own default: the plain name is for the version that connects within a radius
     if constexpr (is_a<Planner, og::BITstar>) {
       if (this->getName().front() != 'k') this->setName("k" + this->getName());
     }
+  }
+
+  ob::PlannerStatus solve(const ob::PlannerTerminationCondition& ptc) override {
+    const ob::PlannerStatus status = Planner::solve(ptc);
+    if (forward_ != nullptr) forward_->set_backwards(false);
+    return status;
   }
 
   std::size_t nodes() const {
@@ -86,6 +94,16 @@ class Seeded final : public Planner {
   }
 
  private:
+  /// Lets one tree of a robot that drives forwards only grow from the start, and the other one to the goal.
+  void use_directions() {
+    if constexpr (is_a<Planner, og::RRTConnect>) {
+      forward_ = dynamic_cast<ForwardSpace*>(this->si_->getStateSpace().get());
+      if (forward_ == nullptr) return;
+      this->tStart_ = std::make_shared<DirectedTree<typename Planner::Motion*>>(*forward_, false);
+      this->tGoal_ = std::make_shared<DirectedTree<typename Planner::Motion*>>(*forward_, true);
+    }
+  }
+
   /// Gives trees in the plane our own nearest neighbours; setup() keeps what is there.
   void use_grid(double range) {
     const auto* plane = dynamic_cast<const ob::RealVectorStateSpace*>(this->si_->getStateSpace().get());
@@ -97,6 +115,8 @@ class Seeded final : public Planner {
       this->nn_ = std::make_shared<GridNeighbors<typename Planner::Motion*>>(plane->getBounds(), range);
     }
   }
+
+  ForwardSpace* forward_ = nullptr;  ///< where use_directions() has set up two trees
 };
 
 template <typename Planner>

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kept_states.hpp"
+
 namespace lrrt {
 namespace {
 
@@ -37,9 +39,9 @@ ob::RealVectorBounds bounds_of(const OccupancyMap& map) {
 }
 
 std::shared_ptr<ob::SE2StateSpace> poses(Motion motion, double turning_radius, double reach) {
-  if (motion == Motion::dubins) return std::make_shared<ForwardSpace>(turning_radius);
-  if (motion == Motion::reeds_shepp) return std::make_shared<ob::ReedsSheppStateSpace>(turning_radius);
-  auto space = std::make_shared<ob::SE2StateSpace>();
+  if (motion == Motion::dubins) return std::make_shared<KeptStates<ForwardSpace>>(turning_radius);
+  if (motion == Motion::reeds_shepp) return std::make_shared<KeptStates<ob::ReedsSheppStateSpace>>(turning_radius);
+  auto space = std::make_shared<KeptStates<ob::SE2StateSpace>>();
   space->setSubspaceWeight(1, reach);  // OMPL's own is half a unit of length to a radian, whatever the unit
   return space;
 }
@@ -170,7 +172,7 @@ void set_durations(const Drive& drive, double range, oc::SpaceInformation& si) {
 SearchSpace plane_space(const std::shared_ptr<const CollisionMap>& map, const ClearanceCost& clearance,
                         const std::shared_ptr<SearchLimits>& limits) {
   const auto projection = std::make_shared<const PlaneProjection>();
-  auto space = std::make_shared<ob::RealVectorStateSpace>(2);
+  auto space = std::make_shared<KeptStates<ob::RealVectorStateSpace>>(2U);
   space->setBounds(bounds_of(map->map()));
   const auto si = std::make_shared<ob::SpaceInformation>(space);
   si->setStateValidityChecker(std::make_shared<MapValidityChecker>(si, map, projection));
@@ -205,10 +207,10 @@ SearchSpace drive_space(const std::shared_ptr<const CollisionMap>& map,
                         const std::shared_ptr<const CollisionBody>& body, const Drive& drive, double range,
                         double reach, std::uint32_t seed, const std::shared_ptr<SearchLimits>& limits) {
   // a radian counts as far as the robot gets while it turns that far at its best
-  const auto space = std::make_shared<DriveSpace>(drive.top_speed() / drive.top_turn_rate());
+  const auto space = std::make_shared<KeptStates<DriveSpace>>(drive.top_speed() / drive.top_turn_rate());
   space->setBounds(bounds_of(map->map()));
-  const auto si =
-      std::make_shared<oc::SpaceInformation>(space, std::make_shared<DriveControlSpace>(space, drive, seed));
+  const auto si = std::make_shared<oc::SpaceInformation>(
+      space, std::make_shared<KeptControls<DriveControlSpace>>(space, drive, seed));
   const auto propagator = std::make_shared<DrivePropagator>(si, body, limits);
   si->setStateValidityChecker(std::make_shared<PoseValidityChecker>(si, body));
   si->setStatePropagator(propagator);

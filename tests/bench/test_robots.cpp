@@ -5,11 +5,13 @@
 #include <string>
 
 #include "campaign.hpp"
+#include "hybrid_search.hpp"
 #include "lrrt/map/components.hpp"
 #include "lrrt/map/footprint.hpp"
 #include "lrrt/map/swept_footprint.hpp"
 #include "lrrt/region/geodesic.hpp"
 #include "maze.hpp"
+#include "portfolio.hpp"
 #include "problems.hpp"
 #include "replanning.hpp"
 #include "replay.hpp"
@@ -92,6 +94,13 @@ TEST(Robots, WhatMakesNoSenseIsRefused) {
   refused("far: 0.5", "far: 0.5, apart: 0.5", "either 'apart'");
   refused("far: 0.5", "far: 2", "share of the longest way");
   refused("scale: 10", "scale: 0", "factor");
+  refused("far: 0.5", "far: 0.5, drivable: turning", "dubins");
+  refused("far: 0.5", "far: 0.5, drivable: dubins", "a row with that motion");
+  refused("planner: RRTConnect, strategy: uniform}", "planner: HybridA*, strategy: frontier}", "grid of poses");
+  refused("planner: RRTConnect, strategy: uniform}", "planner: HybridA*, strategy: uniform, motion: turning}",
+          "grid of poses");
+  refused("planner: RRTConnect, strategy: uniform}",
+          "planner: AnytimePathShortening, strategy: uniform, motion: dubins}", "OMPL's own");
   refused("baseline: turns", "baseline: nobody", "'nobody'");
   refused("planner: RRTConnect, strategy: uniform}", "planner: A*, strategy: uniform}", "no outline");
   refused("planner: RRTConnect, strategy: uniform}", "planner: BITstar, strategy: uniform, motion: dubins}", "BITstar");
@@ -99,10 +108,106 @@ TEST(Robots, WhatMakesNoSenseIsRefused) {
 }
 
 TEST(Robots, JsonReadsBackTheSame) {
-  const Suite suite =
-      parse_suite(with("- {kind: farthest}", "- {kind: points, start: [1, 2, 3], goal: [4, 5, 6]}"), "my.yaml", ".");
-  const Json json = to_json(suite);
-  EXPECT_EQ(to_json(parse_suite(dumped(json, 1), "again", ".")), json);
+  for (const std::string& text : {with("- {kind: farthest}", "- {kind: points, start: [1, 2, 3], goal: [4, 5, 6]}"),
+                                  with("far: 0.5", "far: 0.5, drivable: reeds_shepp")}) {
+    const Json json = to_json(parse_suite(text, "my.yaml", "."));
+    EXPECT_EQ(to_json(parse_suite(dumped(json, 1), "again", ".")), json);
+  }
+}
+
+constexpr const char* forwards = R"(
+kind: plan
+rectangle: [0.5, 0.35, 0.15]
+turning_radius: 0.5
+motion: dubins
+maps:
+  - {kind: maze, level: 7, pixels: 112, count: 4, braid: 0.5, scale: 10}
+queries:
+  - {kind: random, count: 4, far: 0.5, drivable: dubins}
+planners:
+  - {name: grid, planner: HybridA*, strategy: uniform}
+  - {name: grid both ways, planner: HybridA*, strategy: uniform, motion: reeds_shepp}
+time_limit: 20
+)";
+
+TEST(Robots, HybridSearchFindsFreeWaysThatACarCanDrive) {
+  const Suite suite = parse_suite(forwards, "my.yaml", ".");
+  const auto& body = std::get<PlanSuite>(suite.body);
+  const std::vector<Problem> problems = make_problems(suite);
+  ASSERT_EQ(problems.size(), 16U);
+  for (const Problem& p : problems) {
+    const OccupancyMap map = planning_map(p, body);
+    const DistanceField field(map);
+    const Polygon outline = *outline_at(body, p.scale);
+    const FootprintWalk walk(map, field, outline);
+    const double radius = body.rows[0].turning_radius * p.scale;
+    for (const PlanRow& row : body.rows) {
+      const PlanResult result = hybrid_search(p, body, row, CancelToken());
+      ASSERT_EQ(result.status, PlanStatus::solved) << p.query;  // they are drivable: forwards, so both ways too
+      EXPECT_EQ(result.path.front(), p.start);
+      EXPECT_EQ(result.path.back(), p.goal);
+      EXPECT_EQ(result.headings.back(), p.goal_heading);
+      double length = 0.0;
+      for (std::size_t i = 1; i < result.path.size(); ++i) {
+        EXPECT_TRUE(walk.is_free(pose(result.path[i], result.headings[i])));
+        const Eigen::Vector2d step = result.path[i] - result.path[i - 1];
+        const double turn = std::remainder(result.headings[i] - result.headings[i - 1], 2.0 * 3.141592653589793);
+        const double middle = result.headings[i - 1] + 0.5 * turn;
+        const double ahead = std::cos(middle) * step.x() + std::sin(middle) * step.y();
+        EXPECT_NEAR(std::abs(ahead), step.norm(), 1e-3) << "sideways";
+        if (row.motion == "dubins") {
+          EXPECT_GT(ahead, -1e-3) << "backwards";
+        }
+        EXPECT_LE(std::abs(turn) * radius, step.norm() * 1.01 + 1e-3) << "too tight";
+        EXPECT_LE(step.norm() + outline.circumscribed_radius() * std::abs(turn), map.resolution() * 1.001);
+        length += step.norm();
+      }
+      EXPECT_NEAR(result.cost, length, 0.01 * length);
+    }
+  }
+}
+
+TEST(Robots, OmplsPortfolioIsCheckedLikeAnyPlanner) {
+  const Suite suite = parse_suite(with("planner: RRTConnect, strategy: uniform, motion: turning",
+                                       "planner: AnytimePathShortening, strategy: uniform, motion: turning"),
+                                  "my.yaml", ".");
+  const auto& body = std::get<PlanSuite>(suite.body);
+  for (const Problem& p : make_problems(suite)) {
+    const OccupancyMap map = planning_map(p, body);
+    const DistanceField field(map);
+    const FootprintWalk walk(map, field, *outline_at(body, p.scale));
+    const PlanResult result = portfolio_search(p, body, body.rows[2], CancelToken());
+    ASSERT_EQ(result.status, PlanStatus::solved) << p.query;
+    EXPECT_EQ(result.path.front(), p.start);
+    EXPECT_EQ(result.path.back(), p.goal);
+    for (std::size_t i = 0; i < result.path.size(); ++i) {
+      EXPECT_TRUE(walk.is_free(pose(result.path[i], result.headings[i]))) << p.query;
+    }
+  }
+  CancelToken cancelled;
+  cancelled.cancel();
+  EXPECT_FALSE(portfolio_search(make_problems(suite).front(), body, body.rows[2], cancelled).solved());
+}
+
+TEST(Robots, HybridSearchKnowsWhatACarCannotDrive) {
+  // between walls three pixels wider than the car there is no turning round
+  constexpr int width = 60;
+  constexpr int height = 8;
+  auto map = std::make_shared<const CollisionMap>(
+      OccupancyMap(width, height, std::vector<Cell>(static_cast<std::size_t>(width) * height, Cell::free)));
+  const Polygon outline = Polygon::rectangle(6.0, 5.0, 2.0);
+  const OccupancyMap room = inflated(map->map(), outline.inscribed_radius());
+  const auto body = std::make_shared<const CollisionBody>(map, outline);
+  const auto drives = [&](Motion motion, double start, double goal) {
+    const HybridSearch search(body, room, motion, 6.0);
+    return !search.find({10.0, 4.0, start}, {45.0, 4.0, goal}, [](std::size_t) { return false; }).poses.empty();
+  };
+  constexpr double back = 3.141592653589793;
+  EXPECT_TRUE(drives(Motion::dubins, 0.0, 0.0));
+  EXPECT_FALSE(drives(Motion::dubins, back, back));
+  EXPECT_FALSE(drives(Motion::dubins, 0.0, back));
+  EXPECT_TRUE(drives(Motion::reeds_shepp, back, back));
+  EXPECT_FALSE(drives(Motion::reeds_shepp, 0.0, back));
 }
 
 TEST(Robots, QueriesAreFreePosesJoinedAndFarApartOnFoot) {

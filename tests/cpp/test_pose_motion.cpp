@@ -137,6 +137,29 @@ TEST(ForwardSpace, PosesNearlyInLineDoNoHarm) {
   }
 }
 
+TEST(ForwardSpace, BackwardsItTakesTheCurveThatLeadsToTheFirstState) {
+  Random random(85);
+  const auto space = std::make_shared<ForwardSpace>(1.3);
+  bound(*space);
+  Pose from(space);
+  Pose to(space);
+  Pose between(space);
+  Pose same(space);
+  for (int i = 0; i < 500; ++i) {
+    place_anywhere(from, random, 5.0);
+    place_anywhere(to, random, 5.0);
+    const double t = random.uniform(0.0, 1.0);
+    const double length = space->distance(to.get(), from.get());
+    space->interpolate(to.get(), from.get(), 1.0 - t, same.get());
+    space->set_backwards(true);
+    EXPECT_EQ(space->distance(from.get(), to.get()), length);
+    space->interpolate(from.get(), to.get(), t, between.get());
+    space->set_backwards(false);
+    EXPECT_LT(apart(pose_of(between.get()), pose_of(same.get())), 1e-9);
+    EXPECT_NEAR(space->distance(between.get(), from.get()), t * length, 1e-6);
+  }
+}
+
 /// A wall across the map with a robot on its left.
 struct Wall {
   std::shared_ptr<const CollisionBody> body = std::make_shared<const CollisionBody>(

@@ -296,6 +296,30 @@ TEST(PosePlannerCheck, ADiscInAPoseSpaceStaysClear) {
   EXPECT_GE(solved, 4);
 }
 
+TEST(PosePlannerCheck, OfTwoTreesOneGrowsToTheGoal) {
+  // OMPL's second tree takes curves that lead away from the goal
+  Random random(98);
+  const Polygon robot = Polygon::rectangle(3.0, 2.0, 1.0);
+  PlanOptions options = options_for("RRTConnect", Strategy::uniform);
+  options.iteration_limit = 300;
+  int ours = 0;
+  int ompls = 0;
+  for (int i = 0; i < 60; ++i) {
+    const OccupancyMap map = random_room(random, false);
+    const Pose2 start = random_pose(map, robot, random);
+    const Query query{map, start, random_pose(map, robot, random)};
+    const PlanRequest request = request_of(query, robot, Motion::dubins, 4.0);
+    options.seed = static_cast<std::uint64_t>(i) + 1;
+    for (const Neighbors neighbors : {Neighbors::grid, Neighbors::ompl}) {
+      options.neighbors = neighbors;
+      const PlanResult result = Planner(nullptr, options).plan(request);
+      expect_honest(result, request);
+      (neighbors == Neighbors::grid ? ours : ompls) += result.solved() ? 1 : 0;
+    }
+  }
+  EXPECT_GT(ours, ompls);
+}
+
 TEST(PosePlannerCheck, SimplifyShortensAndStaysFree) {
   Random random(74);
   int shorter = 0;

@@ -21,7 +21,7 @@ namespace lrrt {
 
 /// Poses of a driven robot and the time that it took to get there: OMPL's SE(2) with a third component, which tells
 /// what a way costs and counts for nothing else.
-class DriveSpace final : public ompl::base::SE2StateSpace {
+class DriveSpace : public ompl::base::SE2StateSpace {
  public:
   /// @param turn_weight what a radian counts beside a length, map units.
   explicit DriveSpace(double turn_weight);
@@ -41,7 +41,7 @@ class DriveSpace final : public ompl::base::SE2StateSpace {
 };
 
 /// Controls (speed, turn rate) within the limits of a Drive, drawn by numbers of its own.
-class DriveControlSpace final : public ompl::control::RealVectorControlSpace {
+class DriveControlSpace : public ompl::control::RealVectorControlSpace {
  public:
   /// @param seed not 0.
   DriveControlSpace(const ompl::base::StateSpacePtr& space, const Drive& drive, std::uint32_t seed);

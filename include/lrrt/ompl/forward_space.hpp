@@ -7,7 +7,7 @@ namespace lrrt {
 
 /// OMPL's Dubins space with curves of our own: those of OMPL's 1.5 and 1.6 assert what rounding breaks for poses that
 /// lie nearly in line, which ends the process where OMPL was built with assertions, as Debian's is.
-class ForwardSpace final : public ompl::base::DubinsStateSpace {
+class ForwardSpace : public ompl::base::DubinsStateSpace {
  public:
   /// @param turning_radius tightest one, above 0, in the space's unit of length.
   explicit ForwardSpace(double turning_radius) : ompl::base::DubinsStateSpace(turning_radius) {}
@@ -15,9 +15,13 @@ class ForwardSpace final : public ompl::base::DubinsStateSpace {
   /// The shortest curve of at most three arcs and straight lines, for a turning radius of 1 (Dubins 1957).
   DubinsPath curve(const ompl::base::State* from, const ompl::base::State* to) const;
 
+  /// For a tree that grows backwards from the goal: distance() and interpolate() then take the curve that leads from
+  /// the second state to the first, and curve() does not change.
+  void set_backwards(bool backwards) { backwards_ = backwards; }
+
   /// Length of the curve; the way back may have another.
   double distance(const ompl::base::State* from, const ompl::base::State* to) const override {
-    return rho_ * curve(from, to).length();
+    return rho_ * (backwards_ ? curve(to, from) : curve(from, to)).length();
   }
   using ompl::base::DubinsStateSpace::interpolate;
   /// The state at a share t of the curve, in [0, 1].
@@ -26,6 +30,9 @@ class ForwardSpace final : public ompl::base::DubinsStateSpace {
   /// @param first_time whether the path is still to be found; it is false afterwards.
   void interpolate(const ompl::base::State* from, const ompl::base::State* to, double t, bool& first_time,
                    DubinsPath& path, ompl::base::State* state) const override;
+
+ private:
+  bool backwards_ = false;
 };
 
 }  // namespace lrrt

@@ -15,7 +15,7 @@ struct PlannerSettings {
   double range = 0.0;       ///< longest extension of the tree, map units; 0 leaves the planner's default
   double goal_bias = 0.05;  ///< share of iterations that aim at the goal (RRT and RRT*)
   std::uint32_t seed = 1;   ///< of the planner's own random numbers; not 0
-  bool grid = true;         ///< RRT, RRT-Connect, RRT* and its kin keep their nodes in GridNeighbors, in the plane
+  bool grid = true;         ///< see Neighbors::grid
 };
 
 /// An OMPL planner and what OMPL's common interface does not tell.
