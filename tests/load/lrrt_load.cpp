@@ -56,7 +56,7 @@ PlanOptions options_of(const char* name) {
 class Work {
  public:
   explicit Work(const std::shared_ptr<const RegionPredictor>& model) {
-    for (const char* name : {"RRT", "RRTConnect", "RRTstar"}) planners_.emplace_back(model, options_of(name));
+    for (const char* name : {"RRT", "RRTConnect", "RRTstar", "SST"}) planners_.emplace_back(model, options_of(name));
     Random random(1);
     for (std::size_t i = 0; i < 48; ++i) {
       property::Cells cells = property::random_cells(i % 5, random);
