@@ -41,6 +41,7 @@
 #include "lrrt/map/shortest_path.hpp"
 #include "lrrt/ompl/guide.hpp"
 #include "lrrt/planner.hpp"
+#include "ompl/kept_states.hpp"
 #include "support.hpp"
 
 namespace lrrt {
@@ -141,10 +142,10 @@ int enough_for_a_path(const std::string& planner) {
   return planner == "SST" ? 1000000 : 12 * enough(planner);
 }
 
-/// A set-up as a user of OMPL makes it.
+/// A set-up as a user of OMPL makes it, but for what OMPL's planners would lose of it.
 struct Scene {
   Scene() : collision(std::make_shared<CollisionMap>(test::map_from_rows(slalom_rows()))) {
-    const auto space = std::make_shared<ob::RealVectorStateSpace>(2);
+    const auto space = std::make_shared<KeptStates<ob::RealVectorStateSpace>>(2U);
     space->setBounds(0.0, side);
     setup = std::make_shared<og::SimpleSetup>(space);
     const auto si = setup->getSpaceInformation();

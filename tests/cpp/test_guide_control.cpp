@@ -21,6 +21,7 @@
 #include "lrrt/map/shortest_path.hpp"
 #include "lrrt/ompl/guide.hpp"
 #include "lrrt/ompl/map_validity.hpp"
+#include "ompl/kept_states.hpp"
 #include "support.hpp"
 
 namespace lrrt {
@@ -77,10 +78,11 @@ void move(double speed, double turn_rate, double time, const ob::SE2StateSpace::
   to->setYaw(wrapped_angle(from->getYaw() + turn_rate * time));
 }
 
-/// A set-up as a user of OMPL makes it: a car by its speed and turn rate, or, with dynamics, by its acceleration.
+/// A set-up as a user of OMPL makes it, but for what SST would lose of it: a car by its speed and turn rate, or, with
+/// dynamics, by its acceleration.
 struct Scene {
   explicit Scene(bool dynamic = false) : collision(std::make_shared<CollisionMap>(slalom())) {
-    const auto poses = std::make_shared<ob::SE2StateSpace>();
+    const auto poses = std::make_shared<KeptStates<ob::SE2StateSpace>>();
     ob::RealVectorBounds bounds(2);
     bounds.setLow(0.0);
     bounds.setHigh(side);
@@ -90,13 +92,13 @@ struct Scene {
     if (dynamic) {
       const auto speeds = std::make_shared<ob::RealVectorStateSpace>(1);
       speeds->setBounds(0.0, 4.0);
-      const auto both = std::make_shared<ob::CompoundStateSpace>();
+      const auto both = std::make_shared<KeptStates<ob::CompoundStateSpace>>();
       both->addSubspace(poses, 1.0);
       both->addSubspace(speeds, 0.1);
       space = both;
       projection = std::make_shared<SpeedProjection>();
     }
-    const auto controls = std::make_shared<oc::RealVectorControlSpace>(space, 2);
+    const auto controls = std::make_shared<KeptControls<oc::RealVectorControlSpace>>(space, 2);
     ob::RealVectorBounds limits(2);
     limits.setLow(0, dynamic ? -1.0 : 1.0);
     limits.setHigh(0, dynamic ? 1.0 : 4.0);
