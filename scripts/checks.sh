@@ -41,9 +41,12 @@ run_valgrind() {
   done
 }
 
+forget_counts() { [ ! -d build/coverage ] || find build/coverage -name '*.gcda' -delete; }
+
 coverage() {
+  forget_counts  # of code that has changed since
   build coverage lrrt_tests lrrt_property_tests lrrt_thread_tests
-  find build/coverage -name '*.gcda' -delete
+  forget_counts  # of the listing of tests
   say "C++ tests, counted"
   ctest --preset coverage --no-tests=error --parallel "$jobs"
   mkdir -p build/coverage/report
