@@ -5,15 +5,15 @@
 #include <ompl/base/spaces/ReedsSheppStateSpace.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <queue>
+#include <string>
 #include <utility>
 
 #include "lrrt/map/footprint.hpp"
 #include "lrrt/region/geodesic.hpp"
-#include "lrrt/stopwatch.hpp"
+#include "rival.hpp"
 #include "robot.hpp"
 
 namespace lrrt::bench {
@@ -21,14 +21,28 @@ namespace {
 
 namespace ob = ompl::base;
 
+constexpr double tau = 6.283185307179586;
 constexpr int headings = 24;
-constexpr double angle = 6.283185307179586 / headings;
-/// What the distance that is left counts, to one of the length so far: ways need not be shortest, but soon.
+constexpr double heading_step = tau / headings;
+/// What the distance that is left counts, to one of the length so far.
 constexpr double haste = 2.0;
+
+double checked(double turning_radius, const OccupancyMap& map) {
+  const double pixels = turning_radius / map.resolution();
+  if (pixels >= 0.25 && pixels <= 1e6) return turning_radius;
+  throw SuiteError(std::string(hybrid_search_name) + ": a turning radius of " + std::to_string(pixels) +
+                   " pixels: expected one of a quarter of a pixel to a million; is 'scale' right?");
+}
 
 std::shared_ptr<ob::SE2StateSpace> space_for(Motion motion, double turning_radius) {
   if (motion == Motion::dubins) return std::make_shared<ForwardSpace>(turning_radius);
   return std::make_shared<ob::ReedsSheppStateSpace>(turning_radius);
+}
+
+/// A pixel is closed to a disc of the inscribed radius by inflated() where its worst point is: by no more than a
+/// diagonal too much.
+OccupancyMap crevices_of(const OccupancyMap& map, double inscribed_radius) {
+  return inflated(map, std::max(0.0, inscribed_radius - std::sqrt(2.0) * map.resolution()));
 }
 
 }  // namespace
@@ -36,30 +50,29 @@ std::shared_ptr<ob::SE2StateSpace> space_for(Motion motion, double turning_radiu
 /// One search: its open and closed poses.
 class HybridRun {
  public:
-  HybridRun(const HybridSearch& search, const Pose2& start, const Pose2& goal)
+  HybridRun(const HybridSearch& search, const OccupancyMap& room, const Pose2& start, const Pose2& goal)
       : search_(search),
-        room_(search.room_),
+        room_(room),
         goal_(goal),
-        left_(room_.free_mask(), room_.width(), room_.height(), pixel(goal)),
+        walk_(room_.free_mask(), room_.width(), room_.height(), pixel(goal)),
         from_(search.space_),
         to_(search.space_) {
-    const double arc = search.radius_ * angle;
+    const double arc = search.radius_ * heading_step;
     cell_ = std::max(room_.resolution(), arc / std::sqrt(2.0));
-    const int turns = std::max(1, static_cast<int>(std::ceil(std::sqrt(2.0) * cell_ / arc - 1e-9)));
-    step_ = arc * turns;
-    turns_ = turns;
+    turns_ = std::max(1, static_cast<int>(std::ceil(std::sqrt(2.0) * cell_ / arc - 1e-9)));  // a step leaves its cell
+    step_ = arc * turns_;
     columns_ = static_cast<std::size_t>(std::ceil(room_.width() * room_.resolution() / cell_)) + 1;
-    rows_ = static_cast<std::size_t>(std::ceil(room_.height() * room_.resolution() / cell_)) + 1;
-    closed_.resize(columns_ * rows_ * headings, false);
-    add({start, 0, none, 0.0, {0.0, 0.0}});
+    const auto rows = static_cast<std::size_t>(std::ceil(room_.height() * room_.resolution() / cell_)) + 1;
+    closed_.resize(columns_ * rows * headings, false);
+    if (reaches_goal(start)) add({start, 0, none, 0.0, {0.0, 0.0}});
   }
 
-  CarWay run(const std::function<bool(std::size_t)>& ended) {
-    for (std::size_t tried = 0; !open_.empty() && !ended(tried); ++tried) {
+  CarWay run(const std::function<bool()>& ended) {
+    for (std::size_t tried = 0; !open_.empty() && !ended(); ++tried) {
       const std::size_t at = open_.top().second;
       open_.pop();
       if (!close(nodes_[at])) continue;
-      if (std::optional<PoseMotion> last = shot(nodes_[at], tried)) return told(at, *last);
+      if (const std::optional<Shot> shot = shot_from(nodes_[at].pose, tried)) return told(at, *shot);
       spread(at);
     }
     return {};
@@ -74,18 +87,23 @@ class HybridRun {
   };
   struct Node {
     Pose2 pose;
-    int heading;  ///< steps of 15° from that of the start
+    int heading;  ///< steps from that of the start, 0 to 23
     std::size_t parent;
     double length;  ///< up to here
     Arc arc;        ///< that led here
   };
+  /// A free curve to the goal.
+  struct Shot {
+    PoseMotion curve;
+    double length;
+  };
 
   Pixel pixel(const Pose2& pose) const { return OccupancyMap::pixel_of(room_.to_pixel({pose.x, pose.y})); }
-
-  double left(const Pose2& pose) const { return left_.at(pixel(pose)) * Geodesic::unit * room_.resolution(); }
+  bool reaches_goal(const Pose2& pose) const { return walk_.at(pixel(pose)) != Geodesic::unreached; }
+  double remaining(const Pose2& pose) const { return walk_.at(pixel(pose)) * Geodesic::unit * room_.resolution(); }
 
   void add(const Node& node) {
-    open_.emplace(node.length + haste * left(node.pose), nodes_.size());
+    open_.emplace(node.length + haste * remaining(node.pose), nodes_.size());
     nodes_.push_back(node);
   }
 
@@ -111,6 +129,7 @@ class HybridRun {
     return motion;
   }
 
+  /// Adds the poses that lie a step ahead, and behind.
   void spread(std::size_t at) {
     const Node from = nodes_[at];
     for (const double length : {step_, -step_}) {
@@ -118,42 +137,40 @@ class HybridRun {
       for (const int side : {0, 1, -1}) {
         const Arc arc{length, side / search_.radius_};
         const int turn = length > 0.0 ? side * turns_ : -side * turns_;
-        Node next{along_arc(from.pose, length, length * arc.curvature), (from.heading + turn + headings * 4) % headings,
-                  at, from.length + step_, arc};
-        if (!room_.is_free(pixel(next.pose)) || left_.at(pixel(next.pose)) == Geodesic::unreached) continue;
-        if (closed_[cell(next)] || !search_.body_->is_free(motion(from.pose, arc))) continue;
-        add(next);
+        const int heading = ((from.heading + turn) % headings + headings) % headings;
+        const Node next{along_arc(from.pose, length, length * arc.curvature), heading, at, from.length + step_, arc};
+        if (!reaches_goal(next.pose) || closed_[cell(next)]) continue;
+        if (search_.body_->is_free(motion(from.pose, arc))) add(next);
       }
     }
   }
 
   /// The shortest curve to the goal where it is free: tried the more often, the nearer it is.
-  std::optional<PoseMotion> shot(const Node& node, std::size_t tried) {
-    const auto pause = static_cast<std::size_t>(left(node.pose) / (2.0 * search_.radius_));
+  std::optional<Shot> shot_from(const Pose2& pose, std::size_t tried) {
+    const auto pause = static_cast<std::size_t>(remaining(pose) / (2.0 * search_.radius_));
     if (tried % (pause + 1) != 0) return std::nullopt;
-    const auto write = [](const Pose2& pose, ob::ScopedState<>& state) {
+    const auto write = [](const Pose2& from, ob::ScopedState<>& state) {
       auto* values = state->as<ob::SE2StateSpace::StateType>();
-      values->setXY(pose.x, pose.y);
-      values->setYaw(std::remainder(pose.yaw, headings * angle));
+      values->setXY(from.x, from.y);
+      values->setYaw(std::remainder(from.yaw, tau));
     };
-    write(node.pose, from_);
+    write(pose, from_);
     write(goal_, to_);
-    PoseMotion curve = search_.steering_.between(from_.get(), to_.get());
+    const PoseMotion curve = search_.steering_.between(from_.get(), to_.get());
     if (!search_.body_->is_free(curve)) return std::nullopt;
-    last_ = search_.space_->distance(from_.get(), to_.get());
-    return curve;
+    return Shot{curve, search_.space_->distance(from_.get(), to_.get())};
   }
 
-  CarWay told(std::size_t at, const PoseMotion& last) const {
+  CarWay told(std::size_t at, const Shot& shot) const {
     std::vector<std::size_t> nodes;
     for (std::size_t i = at; i != none; i = nodes_[i].parent) nodes.push_back(i);
     std::reverse(nodes.begin(), nodes.end());
-    CarWay way{{nodes_.front().pose}, nodes_[at].length + last_};
+    CarWay way{{nodes_[nodes.front()].pose}, nodes_[at].length + shot.length};
     const auto append = [&](const PoseMotion& motion) {
       for (const double t : motion.moments(room_.resolution())) way.poses.push_back(motion.at(t));
     };
     for (std::size_t i = 1; i < nodes.size(); ++i) append(motion(nodes_[nodes[i - 1]].pose, nodes_[nodes[i]].arc));
-    append(last);
+    append(shot.curve);
     way.poses.back() = goal_;
     return way;
   }
@@ -161,64 +178,58 @@ class HybridRun {
   const HybridSearch& search_;
   const OccupancyMap& room_;
   Pose2 goal_;
-  Geodesic left_;
-  double cell_;  ///< side, map units
-  double step_;
-  int turns_;
+  Geodesic walk_;  ///< from the goal
+  double cell_;    ///< side, map units
+  int turns_;      ///< headings that a step turns by on an arc
+  double step_;    ///< length, map units
   std::size_t columns_;
-  std::size_t rows_;
   std::vector<bool> closed_;
   std::vector<Node> nodes_;
   using Rank = std::pair<double, std::size_t>;
   std::priority_queue<Rank, std::vector<Rank>, std::greater<>> open_;
   ob::ScopedState<> from_;
   ob::ScopedState<> to_;
-  double last_ = 0.0;
 };
 
-HybridSearch::HybridSearch(std::shared_ptr<const CollisionBody> body, OccupancyMap room, Motion motion,
+HybridSearch::HybridSearch(const OccupancyMap& map, std::shared_ptr<const CollisionBody> body, Motion motion,
                            double turning_radius)
     : body_(std::move(body)),
-      room_(std::move(room)),
+      room_(inflated(map, body_->outline().inscribed_radius())),
+      crevices_(crevices_of(map, body_->outline().inscribed_radius())),
       reverse_(motion == Motion::reeds_shepp),
-      radius_(turning_radius),
+      radius_(checked(turning_radius, map)),
       space_(space_for(motion, turning_radius)),
       steering_(*space_, body_->outline().circumscribed_radius()) {}
 
-CarWay HybridSearch::find(const Pose2& start, const Pose2& goal, const std::function<bool(std::size_t)>& ended) const {
-  if (!body_->is_free(start) || !body_->is_free(goal)) return {};
-  return HybridRun(*this, start, goal).run(ended);
+CarWay HybridSearch::find(const Pose2& start, const Pose2& goal, const std::function<bool()>& ended) const {
+  CarWay way = HybridRun(*this, room_, start, goal).run(ended);
+  return way.poses.empty() && !ended() ? HybridRun(*this, crevices_, start, goal).run(ended) : way;
 }
 
 PlanResult hybrid_search(const Problem& problem, const PlanSuite& suite, const PlanRow& row,
                          const CancelToken& cancel) {
-  PlanResult result;
-  const Stopwatch watch;
-  const Polygon outline = outline_at(suite, problem.scale).value();
-  const auto map = std::make_shared<const CollisionMap>(planning_map(problem, suite));
-  const HybridSearch search(std::make_shared<const CollisionBody>(map, outline),
-                            inflated(map->map(), outline.inscribed_radius()), motion_from_string(row.motion),
-                            row.turning_radius * problem.scale);
-  result.timings.prepare = watch.total_ms();
-  const double latest = result.timings.prepare + 1e3 * row.options.time_limit;
-  std::size_t tries = 0;
-  const CarWay way = search.find({problem.start.x(), problem.start.y(), problem.start_heading},
-                                 {problem.goal.x(), problem.goal.y(), problem.goal_heading}, [&](std::size_t tried) {
-                                   tries = tried;
-                                   return tried % 64 == 0 && (cancel.cancelled() || watch.total_ms() > latest);
-                                 });
-  result.timings.total = watch.total_ms();
-  result.timings.plan = result.timings.total - result.timings.prepare;
-  result.iterations = tries;
-  if (way.poses.empty()) return result;
-  result.status = PlanStatus::solved;
+  RivalRun run(row, cancel);
+  const OccupancyMap map = planning_map(problem, suite);
+  const auto body = body_on(map, outline_at(suite, problem.scale).value());
+  const auto blocked = blocked_end(problem, [&](const Pose2& pose) { return body->is_free(pose); });
+  if (blocked) return run.failed(*blocked);
+  const HybridSearch search(map, body, motion_from_string(row.motion), row.turning_radius * problem.scale);
+  run.prepared();
+  std::size_t tried = 0;
+  bool over = false;
+  const CarWay way = search.find(start_of(problem), goal_of(problem), [&] {
+    over = over || tried >= row.options.iteration_limit || (tried % 64 == 0 && run.over());
+    if (!over) ++tried;
+    return over;
+  });
+  if (way.poses.empty()) return run.failed(PlanStatus::iteration_limit, tried);
+  std::vector<Eigen::Vector2d> path;
+  std::vector<double> yaws;
   for (const Pose2& pose : way.poses) {
-    result.path.emplace_back(pose.x, pose.y);
-    result.headings.push_back(pose.yaw);
+    path.emplace_back(pose.x, pose.y);
+    yaws.push_back(wrapped_angle(pose.yaw));
   }
-  result.cost = way.length;
-  result.cost_history = {{result.timings.plan, tries, way.length}};
-  return result;
+  return run.solved(std::move(path), std::move(yaws), way.length, tried);
 }
 
 }  // namespace lrrt::bench

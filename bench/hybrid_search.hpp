@@ -23,30 +23,36 @@ struct CarWay {
 /// A search over a grid of places and headings for a car, Hybrid A* (Dolgov, Thrun, Montemerlo, Diebel 2008).
 ///
 /// From each pose lead the two tightest arcs and the straight line, for a car that reverses backwards too; of the poses
-/// in one cell, a place of about a tenth of the turning radius at one of 24 headings, the first one counts. The order
-/// is by the length so far and the walking distance that is left. From some poses OMPL's shortest curve to the goal is
-/// tried, so the way ends exactly there. A way that it finds is free; where it finds none, a finer grid might.
+/// in one cell, a place of a fifth of the turning radius (at least a pixel) at one of 24 headings, the first one
+/// counts. The order is by the length so far and twice the walking distance that is left, so that a way comes soon
+/// rather than the shortest one. From some poses OMPL's shortest curve to the goal is tried, so the way ends exactly
+/// there. A way that it finds is free; where it finds none, a finer grid might.
 class HybridSearch {
  public:
-  /// @param body the robot on the map. @param room the map in which its largest disc is a point.
+  /// @param map see planning_map(). @param body the robot on it.
   /// @param motion dubins or reeds_shepp. @param turning_radius map units.
-  HybridSearch(std::shared_ptr<const CollisionBody> body, OccupancyMap room, Motion motion, double turning_radius);
+  /// @throws SuiteError when the turning radius is less than a quarter of a pixel or more than a million of them.
+  HybridSearch(const OccupancyMap& map, std::shared_ptr<const CollisionBody> body, Motion motion,
+               double turning_radius);
 
-  /// @param ended asked now and then with the number of poses tried so far: whether to give up.
-  CarWay find(const Pose2& start, const Pose2& goal, const std::function<bool(std::size_t)>& ended) const;
+  /// @param start,goal poses at which the robot touches nothing.
+  /// @param ended asked at every pose that is tried: whether to give up.
+  CarWay find(const Pose2& start, const Pose2& goal, const std::function<bool()>& ended) const;
 
  private:
   friend class HybridRun;
 
   std::shared_ptr<const CollisionBody> body_;
-  OccupancyMap room_;
+  OccupancyMap room_;      ///< where the disc that the robot holds fits anywhere in a pixel
+  OccupancyMap crevices_;  ///< the same, and wherever it may fit somewhere in one
   bool reverse_;
   double radius_;
   std::shared_ptr<ompl::base::StateSpace> space_;
   Steering steering_;
 };
 
-/// The rival of guided planners for cars: all of it but reading the map counts, as for them.
+/// The rival of guided planners for cars: all of it but reading the map counts, as for them. Where the grid is
+/// exhausted the status is iteration_limit.
 PlanResult hybrid_search(const Problem& problem, const PlanSuite& suite, const PlanRow& row, const CancelToken& cancel);
 
 }  // namespace lrrt::bench

@@ -106,6 +106,7 @@ Json row_json(const PlanResult& result, const PlanJob& job, double optimum) {
                {"motion_checks", result.motion_checks},
                {"reused", result.reused},
                {"ended_by_clock", by_clock},
+               {"repeatable", job.row.options.planner != portfolio_name},
                {"times_ms", times_json(result)},
                {"draws", {{"guided", result.draws.guided}, {"uniform", result.draws.uniform}}}};
   if (result.region) {
@@ -189,7 +190,7 @@ Job job_of(PlanJob job, int run, std::size_t pair, const IterationLimits& limits
   const std::string id = job.problem->map_name + " | " + job.problem->query + " | " + job.row.name + " | " +
                          std::to_string(job.row.options.seed);
   const auto limit = limits.find(id);
-  if (limit != limits.end()) {
+  if (limit != limits.end() && job.row.options.planner != portfolio_name) {
     job.limited_by_id = true;
     job.row.options.iteration_limit = limit->second;
     job.row.options.time_limit = 1e9;

@@ -68,11 +68,11 @@ void check_hybrid_search(const Fields& fields, const PlanRow& row, const PlanSui
 void check_portfolio(const Fields& fields, const PlanRow& row, const PlanSuite& robot) {
   const bool body = row.motion == "turning" || (row.motion == "reeds_shepp" && row.turning_radius > 0.0);
   const bool able = row.motion == "plane" ? !robot.outline : body && robot.outline;
-  if (row.strategy == "uniform" && row.stop != "factor" && able) return;
+  if (row.strategy == "uniform" && row.stop == "first" && able) return;
   fields.refuse_all(
       std::string(portfolio_name) +
-      " is OMPL's own: expected 'strategy: uniform', 'stop: first' or 'limit', and 'motion: plane' without "
-      "an outline, or 'turning' or 'reeds_shepp' with one");
+      " is OMPL's own: expected 'strategy: uniform', 'stop: first', and 'motion: plane' without an outline, "
+      "or 'turning', or 'reeds_shepp' and a turning_radius, with one");
 }
 
 /// Whether a row is no planner of the library's, and then whether it makes sense.
@@ -81,7 +81,11 @@ bool check_rival(const Fields& fields, const PlanRow& row, const PlanSuite& robo
   if (name == grid_search_name) check_grid_search(fields, row, robot);
   if (name == hybrid_search_name) check_hybrid_search(fields, row, robot);
   if (name == portfolio_name) check_portfolio(fields, row, robot);
-  return name == grid_search_name || name == hybrid_search_name || name == portfolio_name;
+  const bool rival = name == grid_search_name || name == hybrid_search_name || name == portfolio_name;
+  if (rival && (!row.after.empty() || row.options.simplify || row.options.goal_tolerance > 0.0)) {
+    fields.refuse_all(name + " plans once, to the goal itself: expected no 'after', 'simplify' and 'goal_tolerance'");
+  }
+  return rival;
 }
 
 /// Asks the library whether options and robot make sense, with a map on which no query gets beyond that.

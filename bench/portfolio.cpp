@@ -9,10 +9,11 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "lrrt/map/footprint.hpp"
 #include "lrrt/ompl/search_space.hpp"
-#include "lrrt/stopwatch.hpp"
+#include "rival.hpp"
 #include "robot.hpp"
 
 namespace lrrt::bench {
@@ -27,57 +28,65 @@ SearchSpace space_of(const Problem& problem, const PlanSuite& suite, const PlanR
   if (motion == Motion::plane) return plane_space(std::make_shared<const CollisionMap>(map), {}, nullptr);
   const Polygon outline = outline_at(suite, problem.scale).value();
   const auto room = std::make_shared<const CollisionMap>(inflated(map, outline.inscribed_radius()));
-  const auto body = std::make_shared<const CollisionBody>(std::make_shared<const CollisionMap>(map), outline);
-  return pose_space(room, body, motion, row.turning_radius * problem.scale, outline.circumscribed_radius(), {},
-                    nullptr);
+  return pose_space(room, body_on(map, outline), motion, row.turning_radius * problem.scale,
+                    outline.circumscribed_radius(), {}, nullptr);
 }
 
-ob::ScopedState<> state_of(const SearchSpace& space, const Eigen::Vector2d& place, double heading) {
+ob::ScopedState<> state_of(const SearchSpace& space, const Pose2& pose) {
   ob::ScopedState<> state(space.si);
-  space.projection->write(place, state.get());
-  if (space.projection->has_heading()) space.projection->write_heading(heading, state.get());
+  space.projection->write({pose.x, pose.y}, state.get());
+  if (space.projection->has_heading()) space.projection->write_heading(pose.yaw, state.get());
   return state;
 }
 
-template <typename... Planners>
+std::shared_ptr<ob::ProblemDefinition> definition_of(const SearchSpace& space, const Problem& problem) {
+  const auto definition = std::make_shared<ob::ProblemDefinition>(space.si);
+  definition->setStartAndGoalStates(state_of(space, start_of(problem)), state_of(space, goal_of(problem)));
+  space.objective->setCostThreshold(ob::Cost(std::numeric_limits<double>::infinity()));
+  definition->setOptimizationObjective(space.objective);
+  return definition;
+}
+
 std::shared_ptr<og::AnytimePathShortening> portfolio_of(const ob::SpaceInformationPtr& si, double range) {
-  const auto made = og::AnytimePathShortening::createPlanner<Planners...>(si);
-  for (unsigned int i = 0; i < made->getNumPlanners(); ++i) {
-    if (range > 0.0) made->getPlanner(i)->params().setParam("range", std::to_string(range));
+  const auto made = og::AnytimePathShortening::createPlanner<og::RRTConnect, og::LBKPIECE1>(si);
+  if (range > 0.0) {
+    made->getPlanner(0)->as<og::RRTConnect>()->setRange(range);
+    made->getPlanner(1)->as<og::LBKPIECE1>()->setRange(range);
   }
   return made;
+}
+
+/// The best of the paths found that is free, checked once more.
+std::optional<Trace> best_free(const SearchSpace& space, const ob::ProblemDefinition& definition) {
+  for (const ob::PlannerSolution& solution : definition.getSolutions()) {  // best first
+    if (solution.approximate_) continue;
+    if (std::optional<Trace> trace = space.tell(*solution.path_)) return trace;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
 PlanResult portfolio_search(const Problem& problem, const PlanSuite& suite, const PlanRow& row,
                             const CancelToken& cancel) {
-  PlanResult result;
-  const Stopwatch watch;
+  RivalRun run(row, cancel);
   const SearchSpace space = space_of(problem, suite, row);
-  const auto definition = std::make_shared<ob::ProblemDefinition>(space.si);
-  definition->setStartAndGoalStates(state_of(space, problem.start, problem.start_heading),
-                                    state_of(space, problem.goal, problem.goal_heading));
-  const double enough = row.options.stop == Stop::first ? std::numeric_limits<double>::infinity() : 0.0;
-  space.objective->setCostThreshold(ob::Cost(enough));
-  definition->setOptimizationObjective(space.objective);
-  const auto planner = portfolio_of<og::RRTConnect, og::LBKPIECE1>(space.si, row.options.range * problem.scale);
+  const auto blocked =
+      blocked_end(problem, [&](const Pose2& pose) { return space.si->isValid(state_of(space, pose).get()); });
+  if (blocked) return run.failed(*blocked);
+  const auto definition = definition_of(space, problem);
+  const auto planner = portfolio_of(space.si, row.options.range);
   planner->setProblemDefinition(definition);
   planner->setup();
-  result.timings.prepare = watch.total_ms();
-  const double latest = result.timings.prepare + 1e3 * row.options.time_limit;
-  planner->solve(ob::PlannerTerminationCondition([&] { return cancel.cancelled() || watch.total_ms() > latest; }));
-  result.timings.total = watch.total_ms();
-  result.timings.plan = result.timings.total - result.timings.prepare;
-  const ob::PathPtr path = definition->hasExactSolution() ? definition->getSolutionPath() : nullptr;
-  const std::optional<Trace> trace = path ? space.tell(*path) : std::nullopt;
-  if (!trace) return result;
-  result.status = PlanStatus::solved;
-  result.path = trace->points;
-  result.headings = trace->headings;
-  result.cost = trace->cost;
-  result.cost_history = {{result.timings.plan, 0, trace->cost}};
-  return result;
+  run.prepared();
+  while (!run.over()) {
+    planner->solve(ob::PlannerTerminationCondition([&] { return run.over(); }));
+    if (const std::optional<Trace> trace = best_free(space, *definition))
+      return run.solved(trace->points, trace->headings, trace->cost);
+    definition->clearSolutionPaths();
+    planner->clear();
+  }
+  return run.failed(PlanStatus::time_limit);
 }
 
 }  // namespace lrrt::bench

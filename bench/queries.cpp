@@ -9,6 +9,7 @@
 #include "lrrt/map/moving_ai.hpp"
 #include "lrrt/region/geodesic.hpp"
 #include "maze.hpp"
+#include "rival.hpp"
 #include "robot.hpp"
 
 namespace lrrt::bench {
@@ -104,7 +105,8 @@ Query drivable_pair(const NamedMap& named, const std::optional<HybridSearch>& ca
   constexpr std::size_t most_poses = 200'000;  // a second or so
   for (int k = 0; k < pairs; ++k) {
     const Query query = draw();
-    const auto long_enough = [](std::size_t tried) { return tried >= most_poses; };
+    std::size_t tried = 0;
+    const auto long_enough = [&] { return ++tried > most_poses; };
     if (!car || !car->find(query.start, query.goal, long_enough).poses.empty()) return query;
   }
   refuse(named,
@@ -174,11 +176,11 @@ std::vector<Query> scenario_queries(const QuerySource& source, const NamedMap& n
 }  // namespace
 
 Ground::Ground(const OccupancyMap& map, const PlanSuite& suite, double scale)
-    : suite_(suite), scale_(scale), room_(planning_map(map, suite, scale)) {
+    : suite_(suite), scale_(scale), map_(planning_map(map, suite, scale)), room_(map_) {
   const std::optional<Polygon> outline = outline_at(suite, scale);
   if (!outline) return;
-  body_ = std::make_shared<const CollisionBody>(std::make_shared<const CollisionMap>(room_), *outline);
-  room_ = inflated(room_, outline->inscribed_radius());
+  body_ = body_on(map_, *outline);
+  room_ = inflated(map_, outline->inscribed_radius());
 }
 
 std::optional<Pose2> Ground::draw(const Eigen::Vector2d& place, Random& random) const {
@@ -190,7 +192,7 @@ std::optional<Pose2> Ground::draw(const Eigen::Vector2d& place, Random& random) 
 HybridSearch Ground::car(const std::string& motion) const {
   const auto drives = [&](const PlanRow& row) { return row.motion == motion; };
   const auto row = std::find_if(suite_.rows.begin(), suite_.rows.end(), drives);
-  return {body_, room_, motion_from_string(motion), row->turning_radius * scale_};
+  return {map_, body_, motion_from_string(motion), row->turning_radius * scale_};
 }
 
 std::vector<Query> queries_of(const QuerySource& source, const NamedMap& named, const Ground& ground,

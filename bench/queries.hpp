@@ -51,6 +51,7 @@ class Ground {
  private:
   const PlanSuite& suite_;
   double scale_;
+  OccupancyMap map_;  ///< see planning_map()
   OccupancyMap room_;
   std::shared_ptr<const CollisionBody> body_;  ///< null without an outline
 };

@@ -16,7 +16,11 @@ Json to_json(const QuerySource& query, bool headings) {
       break;
     case QuerySource::Kind::random: {
       Json json = {{"kind", "random"}, {"count", query.count}, {"seed", query.seed}};
-      query.far > 0.0 ? json["far"] = query.far : json["apart"] = query.apart;
+      if (query.far > 0.0) {
+        json["far"] = query.far;
+      } else {
+        json["apart"] = query.apart;
+      }
       if (!query.drivable.empty()) json["drivable"] = query.drivable;
       return json;
     }

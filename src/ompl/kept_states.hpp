@@ -18,6 +18,7 @@ class Pool {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (idle_.empty()) {
       all_.push_back(make());
+      idle_.reserve(all_.capacity());  // giving back must not fail: destructors do it
       return all_.back();
     }
     Item* item = idle_.back();

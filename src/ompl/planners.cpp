@@ -60,6 +60,15 @@ constexpr bool has_goal_bias = is_a<Planner, og::RRT, og::RRTstar, og::RRTXstati
 template <typename Planner>
 constexpr bool has_goal_regions = !is_a<Planner, og::AITstar>;
 
+/// Leaves a space as its users expect it, however a search ends.
+struct Forwards {
+  ForwardSpace* space;  ///< may be null
+
+  ~Forwards() {
+    if (space != nullptr) space->set_backwards(false);
+  }
+};
+
 /// OMPL seeds the generators of a process one after the other, so a planner's numbers depend on how many were made
 /// before it. The generator is protected: a subclass gives each planner its own seed.
 template <typename Planner>
@@ -67,8 +76,10 @@ class Seeded final : public Planner {
  public:
   Seeded(const ob::SpaceInformationPtr& si, const PlannerSettings& settings) : Planner(si) {
     if constexpr (has_random_numbers<Planner>) this->rng_.setLocalSeed(settings.seed);
-    if (settings.grid) use_grid(settings.range);
-    if (settings.grid) use_directions();
+    if (settings.grid) {
+      use_grid(settings.range);
+      use_directions();
+    }
     // OMPL 1.5 warns of its own default: the plain name is for the version that connects within a radius
     if constexpr (is_a<Planner, og::BITstar>) {
       if (this->getName().front() != 'k') this->setName("k" + this->getName());
@@ -76,9 +87,8 @@ class Seeded final : public Planner {
   }
 
   ob::PlannerStatus solve(const ob::PlannerTerminationCondition& ptc) override {
-    const ob::PlannerStatus status = Planner::solve(ptc);
-    if (forward_ != nullptr) forward_->set_backwards(false);
-    return status;
+    const Forwards forwards{forward_};
+    return Planner::solve(ptc);
   }
 
   std::size_t nodes() const {

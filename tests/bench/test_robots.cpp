@@ -15,6 +15,7 @@
 #include "problems.hpp"
 #include "replanning.hpp"
 #include "replay.hpp"
+#include "rival.hpp"
 #include "robot.hpp"
 #include "runner.hpp"
 #include "suite.hpp"
@@ -101,6 +102,8 @@ TEST(Robots, WhatMakesNoSenseIsRefused) {
           "grid of poses");
   refused("planner: RRTConnect, strategy: uniform}",
           "planner: AnytimePathShortening, strategy: uniform, motion: dubins}", "OMPL's own");
+  refused("planner: RRTConnect, strategy: uniform}", "planner: HybridA*, strategy: uniform, simplify: true}",
+          "plans once");
   refused("baseline: turns", "baseline: nobody", "'nobody'");
   refused("planner: RRTConnect, strategy: uniform}", "planner: A*, strategy: uniform}", "no outline");
   refused("planner: RRTConnect, strategy: uniform}", "planner: BITstar, strategy: uniform, motion: dubins}", "BITstar");
@@ -113,6 +116,8 @@ TEST(Robots, JsonReadsBackTheSame) {
     const Json json = to_json(parse_suite(text, "my.yaml", "."));
     EXPECT_EQ(to_json(parse_suite(dumped(json, 1), "again", ".")), json);
   }
+  const Json json = to_json(parse_suite(with("far: 0.5", "far: 0.5, drivable: reeds_shepp"), "my.yaml", "."));
+  EXPECT_EQ(json.at("maps").at(0).at("queries").at(0).at("drivable"), "reeds_shepp");
 }
 
 constexpr const char* forwards = R"(
@@ -168,39 +173,31 @@ TEST(Robots, HybridSearchFindsFreeWaysThatACarCanDrive) {
 }
 
 TEST(Robots, OmplsPortfolioIsCheckedLikeAnyPlanner) {
-  const Suite suite = parse_suite(with("planner: RRTConnect, strategy: uniform, motion: turning",
-                                       "planner: AnytimePathShortening, strategy: uniform, motion: turning"),
-                                  "my.yaml", ".");
+  const Suite suite = parse_suite(cars, "my.yaml", ".");
   const auto& body = std::get<PlanSuite>(suite.body);
   for (const Problem& p : make_problems(suite)) {
     const OccupancyMap map = planning_map(p, body);
     const DistanceField field(map);
     const FootprintWalk walk(map, field, *outline_at(body, p.scale));
-    const PlanResult result = portfolio_search(p, body, body.rows[2], CancelToken());
-    ASSERT_EQ(result.status, PlanStatus::solved) << p.query;
-    EXPECT_EQ(result.path.front(), p.start);
-    EXPECT_EQ(result.path.back(), p.goal);
-    for (std::size_t i = 0; i < result.path.size(); ++i) {
-      EXPECT_TRUE(walk.is_free(pose(result.path[i], result.headings[i]))) << p.query;
+    for (const PlanRow& row : {body.rows[0], body.rows[2]}) {  // both ways, and turning on the spot
+      const PlanResult result = portfolio_search(p, body, row, CancelToken());
+      ASSERT_EQ(result.status, PlanStatus::solved) << p.query;
+      EXPECT_EQ(result.path.front(), p.start);
+      EXPECT_EQ(result.path.back(), p.goal);
+      for (std::size_t i = 0; i < result.path.size(); ++i) {
+        EXPECT_TRUE(walk.is_free(pose(result.path[i], result.headings[i]))) << p.query;
+      }
     }
   }
-  CancelToken cancelled;
-  cancelled.cancel();
-  EXPECT_FALSE(portfolio_search(make_problems(suite).front(), body, body.rows[2], cancelled).solved());
 }
 
 TEST(Robots, HybridSearchKnowsWhatACarCannotDrive) {
   // between walls three pixels wider than the car there is no turning round
-  constexpr int width = 60;
-  constexpr int height = 8;
-  auto map = std::make_shared<const CollisionMap>(
-      OccupancyMap(width, height, std::vector<Cell>(static_cast<std::size_t>(width) * height, Cell::free)));
-  const Polygon outline = Polygon::rectangle(6.0, 5.0, 2.0);
-  const OccupancyMap room = inflated(map->map(), outline.inscribed_radius());
-  const auto body = std::make_shared<const CollisionBody>(map, outline);
+  const OccupancyMap map(60, 8, std::vector<Cell>(480, Cell::free));
+  const auto body = body_on(map, Polygon::rectangle(6.0, 5.0, 2.0));
   const auto drives = [&](Motion motion, double start, double goal) {
-    const HybridSearch search(body, room, motion, 6.0);
-    return !search.find({10.0, 4.0, start}, {45.0, 4.0, goal}, [](std::size_t) { return false; }).poses.empty();
+    const HybridSearch search(map, body, motion, 6.0);
+    return !search.find({10.0, 4.0, start}, {45.0, 4.0, goal}, [] { return false; }).poses.empty();
   };
   constexpr double back = 3.141592653589793;
   EXPECT_TRUE(drives(Motion::dubins, 0.0, 0.0));
@@ -208,6 +205,41 @@ TEST(Robots, HybridSearchKnowsWhatACarCannotDrive) {
   EXPECT_FALSE(drives(Motion::dubins, 0.0, back));
   EXPECT_TRUE(drives(Motion::reeds_shepp, back, back));
   EXPECT_FALSE(drives(Motion::reeds_shepp, 0.0, back));
+  EXPECT_THROW(HybridSearch(map, body, Motion::dubins, 0.05), SuiteError);
+  EXPECT_THROW(HybridSearch(map, body, Motion::dubins, 1e300), SuiteError);
+}
+
+TEST(Robots, RivalsSayWhyThereIsNoPath) {
+  const Suite suite = parse_suite(forwards, "my.yaml", ".");
+  const auto& body = std::get<PlanSuite>(suite.body);
+  PlanRow row = body.rows[1];
+  const Problem good = make_problems(suite).front();
+  for (const auto search : {&hybrid_search, &portfolio_search}) {
+    Problem bad = good;
+    bad.goal = {-5.0, -5.0};
+    EXPECT_EQ((*search)(bad, body, row, CancelToken()).status, PlanStatus::goal_outside);
+    bad.start = {0.5, 0.5};
+    bad.goal = good.goal;
+    EXPECT_EQ((*search)(bad, body, row, CancelToken()).status, PlanStatus::start_occupied);
+    CancelToken cancelled;
+    cancelled.cancel();
+    EXPECT_EQ((*search)(good, body, row, cancelled).status, PlanStatus::cancelled);
+  }
+  row.options.iteration_limit = 3;
+  const PlanResult limited = hybrid_search(good, body, row, CancelToken());
+  EXPECT_EQ(limited.status, PlanStatus::iteration_limit);
+  EXPECT_EQ(limited.iterations, 3U);
+}
+
+TEST(Robots, ReplayLeavesOutWhatNoRunRepeats) {
+  const Json row = {{"id", "a"}, {"iterations", 0}, {"nodes", 0}, {"repeatable", false}};
+  const Json other = {{"id", "b"}, {"iterations", 7}, {"nodes", 3}, {"repeatable", true}};
+  Json result;
+  result["rows"] = Json::array({row, other});
+  const Comparison comparison = compare_replay(result, result);
+  EXPECT_TRUE(comparison.same);
+  EXPECT_NE(comparison.text.find("1 of 1 rows"), std::string::npos) << comparison.text;
+  EXPECT_NE(comparison.text.find("1 rows, which no run repeats"), std::string::npos) << comparison.text;
 }
 
 TEST(Robots, QueriesAreFreePosesJoinedAndFarApartOnFoot) {

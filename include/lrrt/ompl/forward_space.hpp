@@ -17,6 +17,7 @@ class ForwardSpace : public ompl::base::DubinsStateSpace {
 
   /// For a tree that grows backwards from the goal: distance() and interpolate() then take the curve that leads from
   /// the second state to the first, and curve() does not change.
+  /// A space serves one such tree at a time.
   void set_backwards(bool backwards) { backwards_ = backwards; }
 
   /// Length of the curve; the way back may have another.
