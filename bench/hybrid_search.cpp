@@ -39,12 +39,6 @@ std::shared_ptr<ob::SE2StateSpace> space_for(Motion motion, double turning_radiu
   return std::make_shared<ob::ReedsSheppStateSpace>(turning_radius);
 }
 
-/// A pixel is closed to a disc of the inscribed radius by inflated() where its worst point is: by no more than a
-/// diagonal too much.
-OccupancyMap crevices_of(const OccupancyMap& map, double inscribed_radius) {
-  return inflated(map, std::max(0.0, inscribed_radius - std::sqrt(2.0) * map.resolution()));
-}
-
 }  // namespace
 
 /// One search: its open and closed poses.
@@ -194,16 +188,20 @@ class HybridRun {
 HybridSearch::HybridSearch(const OccupancyMap& map, std::shared_ptr<const CollisionBody> body, Motion motion,
                            double turning_radius)
     : body_(std::move(body)),
-      room_(inflated(map, body_->outline().inscribed_radius())),
-      crevices_(crevices_of(map, body_->outline().inscribed_radius())),
+      map_(map),
       reverse_(motion == Motion::reeds_shepp),
       radius_(checked(turning_radius, map)),
       space_(space_for(motion, turning_radius)),
       steering_(*space_, body_->outline().circumscribed_radius()) {}
 
 CarWay HybridSearch::find(const Pose2& start, const Pose2& goal, const std::function<bool()>& ended) const {
-  CarWay way = HybridRun(*this, room_, start, goal).run(ended);
-  return way.poses.empty() && !ended() ? HybridRun(*this, crevices_, start, goal).run(ended) : way;
+  const double inscribed = body_->outline().inscribed_radius();
+  const OccupancyMap room = inflated(map_, inscribed);
+  CarWay way = HybridRun(*this, room, start, goal).run(ended);
+  if (!way.poses.empty() || ended()) return way;
+  // inflated() asks the worst point of each pixel: it closes no more than a diagonal too much
+  const OccupancyMap crevices = inflated(map_, std::max(0.0, inscribed - std::sqrt(2.0) * map_.resolution()));
+  return HybridRun(*this, crevices, start, goal).run(ended);
 }
 
 PlanResult hybrid_search(const Problem& problem, const PlanSuite& suite, const PlanRow& row,

@@ -35,6 +35,8 @@ class HybridSearch {
   HybridSearch(const OccupancyMap& map, std::shared_ptr<const CollisionBody> body, Motion motion,
                double turning_radius);
 
+  /// Where the disc that the robot holds fits anywhere in a pixel; once all of that is tried, where it may fit
+  /// somewhere.
   /// @param start,goal poses at which the robot touches nothing.
   /// @param ended asked at every pose that is tried: whether to give up.
   CarWay find(const Pose2& start, const Pose2& goal, const std::function<bool()>& ended) const;
@@ -43,8 +45,7 @@ class HybridSearch {
   friend class HybridRun;
 
   std::shared_ptr<const CollisionBody> body_;
-  OccupancyMap room_;      ///< where the disc that the robot holds fits anywhere in a pixel
-  OccupancyMap crevices_;  ///< the same, and wherever it may fit somewhere in one
+  OccupancyMap map_;
   bool reverse_;
   double radius_;
   std::shared_ptr<ompl::base::StateSpace> space_;
