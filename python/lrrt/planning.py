@@ -115,7 +115,7 @@ def plan(
         seed: same seed, same result, unless time ends the search.
         keep_tree: fill ``result.tree``.
         neighbors: what finds the near nodes of a tree: ``"grid"``, ours, or ``"ompl"``, what OMPL itself takes. In
-            the plane a matter of time only; for ``"dubins"`` only our RRTConnect has a second tree that grows to the goal.
+            the plane a matter of time only; for ``"dubins"`` only our RRTConnect's second tree grows to the goal.
         cancel: a token that another thread may use to end the search.
         outline: corners (x, y) of the robot in its own frame, heading along +x, the reference point at the origin and
             inside; convex or concave. None for a disc or a point.

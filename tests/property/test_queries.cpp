@@ -54,5 +54,11 @@ TEST(Property, AnswersToQueriesAreTrue) {
   for_all(400, check);
 }
 
+TEST(Property, CasesThatOnceFailedHold) {
+  ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);
+  constexpr std::uint64_t abitstar_crashed = 58403;
+  EXPECT_EQ(check(abitstar_crashed).complaint, "");
+}
+
 }  // namespace
 }  // namespace lrrt::property

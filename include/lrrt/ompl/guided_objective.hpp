@@ -60,7 +60,10 @@ class GuidedObjective final : public ompl::base::OptimizationObjective {
     return inner_->motionCost(from, to);
   }
   ompl::base::Cost motionCostHeuristic(const ompl::base::State* from, const ompl::base::State* to) const override {
-    return source_->over() ? identityCost() : inner_->motionCostHeuristic(from, to);
+    if (source_->over()) return identityCost();
+    // Distances are rounded: a bound above the true cost by the last bit lets BIT* prune a vertex of its own path, and
+    // then read through its missing parent.
+    return ompl::base::Cost((1.0 - 1e-5) * inner_->motionCostHeuristic(from, to).value());
   }
   bool isSatisfied(ompl::base::Cost cost) const override { return inner_->isSatisfied(cost); }
   bool isCostBetterThan(ompl::base::Cost a, ompl::base::Cost b) const override {
