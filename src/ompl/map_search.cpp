@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <tuple>
 
 #include "lrrt/error.hpp"
@@ -182,8 +183,13 @@ void MapSearch::read_path(PlanResult& result) const {
 }
 
 void MapSearch::read_tree(PlanResult& result) const {
+  // BIT* and AIT* put what they tell into one set for all threads, where it stays.
+  static std::mutex one_at_a_time;
   ob::PlannerData data(space_.si);
-  planner_.planner->getPlannerData(data);
+  {
+    const std::lock_guard<std::mutex> lock(one_at_a_time);
+    planner_.planner->getPlannerData(data);
+  }
   std::vector<unsigned int> children;
   for (unsigned int parent = 0; parent < data.numVertices(); ++parent) {
     data.getEdges(parent, children);

@@ -25,6 +25,7 @@
 
 #include <map>
 #include <memory>
+#include <string>
 #include <type_traits>
 
 #include "directed_tree.hpp"
@@ -96,6 +97,12 @@ class Seeded final : public Planner {
       return (this->tStart_ ? this->tStart_->size() : 0) + (this->tGoal_ ? this->tGoal_->size() : 0);
     } else if constexpr (has_one_tree<Planner>) {
       return this->nn_ ? this->nn_->size() : 0;
+    } else if constexpr (is_a<Planner, og::BITstar>) {
+      // Both of these would keep every vertex that they tell PlannerData, and with it the map, for the life of the
+      // process, in one set for all threads.
+      return std::stoul(this->getPlannerProgressProperties().at("current free states INTEGER")());
+    } else if constexpr (is_a<Planner, og::AITstar>) {
+      return this->getVerticesInReverseSearchTree().size();
     } else {
       ob::PlannerData data(this->si_);
       this->getPlannerData(data);
