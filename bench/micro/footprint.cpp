@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <benchmark/benchmark.h>
 
-#include <cmath>
 #include <vector>
 
 #include "lrrt/map/distance_field.hpp"
@@ -55,12 +54,7 @@ void footprint_pose(benchmark::State& state, SceneMaker scene, RobotMaker outlin
   Random random(1);
   std::vector<Pose2> poses;
   while (poses.size() < count) poses.push_back(robot.draw(random));
-  std::size_t i = 0;
-  for ([[maybe_unused]] auto _ : state) {
-    benchmark::DoNotOptimize(robot.walk.is_free(poses[i]));
-    i = (i + 1) % count;
-  }
-  state.SetItemsProcessed(state.iterations());
+  time_checks(state, poses, [&](const Pose2& at) { return robot.walk.is_free(at); });
 }
 
 /// An arc between free poses: the tightest turn, all of it free or not.
@@ -75,12 +69,7 @@ void footprint_arc(benchmark::State& state, SceneMaker scene, RobotMaker outline
     motion.append(length, 1.0 / turning_radius);
     if (robot.walk.is_free(from) && robot.walk.is_free(to) && robot.is_free(motion) == free) motions.push_back(motion);
   }
-  std::size_t i = 0;
-  for ([[maybe_unused]] auto _ : state) {
-    benchmark::DoNotOptimize(robot.is_free(motions[i]));
-    i = (i + 1) % count;
-  }
-  state.SetItemsProcessed(state.iterations());
+  time_checks(state, motions, [&](const PoseMotion& motion) { return robot.is_free(motion); });
 }
 
 BENCHMARK_CAPTURE(footprint_pose, clutter_rectangle, clutter, rectangle)->Name("footprint/pose/clutter/rectangle");

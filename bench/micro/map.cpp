@@ -44,12 +44,7 @@ void segment_walk(benchmark::State& state, SceneMaker scene, double length, bool
   const ClearanceBound clearance(scene(side).map);
   const SegmentWalk walk(clearance);
   const std::vector<Segment> segments = draw_segments(walk, side, length, free);
-  std::size_t i = 0;
-  for ([[maybe_unused]] auto _ : state) {
-    benchmark::DoNotOptimize(walk.is_free(segments[i].from, segments[i].to));
-    i = (i + 1) % segment_count;
-  }
-  state.SetItemsProcessed(state.iterations());
+  time_checks(state, segments, [&](const Segment& segment) { return walk.is_free(segment.from, segment.to); });
 }
 
 void distance_field(benchmark::State& state, SceneMaker scene) {

@@ -41,6 +41,18 @@ inline int side_of(const benchmark::State& state) {
   return static_cast<int>(state.range(0));
 }
 
+/// Times one call of a check after the other, over all items in turn: give so many that a processor cannot learn them
+/// by heart.
+template <typename Item, typename Check>
+void time_checks(benchmark::State& state, const std::vector<Item>& items, const Check& check) {
+  std::size_t i = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    benchmark::DoNotOptimize(check(items[i]));
+    i = (i + 1) % items.size();
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+
 /// Notes that each iteration looked at every pixel of a map: the table then shows pixels a second.
 inline void count_pixels(benchmark::State& state, const OccupancyMap& map) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(map.size()));
