@@ -185,33 +185,31 @@ class HybridRun {
   ob::ScopedState<> to_;
 };
 
-HybridSearch::HybridSearch(const OccupancyMap& map, std::shared_ptr<const CollisionBody> body, Motion motion,
-                           double turning_radius)
+HybridSearch::HybridSearch(std::shared_ptr<const CollisionBody> body, Motion motion, double turning_radius)
     : body_(std::move(body)),
-      map_(map),
       reverse_(motion == Motion::reeds_shepp),
-      radius_(checked(turning_radius, map)),
+      radius_(checked(turning_radius, body_->map()->map())),
       space_(space_for(motion, turning_radius)),
       steering_(*space_, body_->outline().circumscribed_radius()) {}
 
 CarWay HybridSearch::find(const Pose2& start, const Pose2& goal, const std::function<bool()>& ended) const {
+  const OccupancyMap& map = body_->map()->map();
   const double inscribed = body_->outline().inscribed_radius();
-  const OccupancyMap room = inflated(map_, inscribed);
+  const OccupancyMap room = inflated(map, inscribed);
   CarWay way = HybridRun(*this, room, start, goal).run(ended);
   if (!way.poses.empty() || ended()) return way;
   // inflated() asks the worst point of each pixel: it closes no more than a diagonal too much
-  const OccupancyMap crevices = inflated(map_, std::max(0.0, inscribed - std::sqrt(2.0) * map_.resolution()));
+  const OccupancyMap crevices = inflated(map, std::max(0.0, inscribed - std::sqrt(2.0) * map.resolution()));
   return HybridRun(*this, crevices, start, goal).run(ended);
 }
 
 PlanResult hybrid_search(const Problem& problem, const PlanSuite& suite, const PlanRow& row,
                          const CancelToken& cancel) {
   RivalRun run(row, cancel);
-  const OccupancyMap map = planning_map(problem, suite);
-  const auto body = body_on(map, outline_at(suite, problem.scale).value());
+  const auto body = body_on(planning_map(problem, suite), outline_at(suite, problem.scale).value());
   const auto blocked = blocked_end(problem, [&](const Pose2& pose) { return body->is_free(pose); });
   if (blocked) return run.failed(*blocked);
-  const HybridSearch search(map, body, motion_from_string(row.motion), row.turning_radius * problem.scale);
+  const HybridSearch search(body, motion_from_string(row.motion), row.turning_radius * problem.scale);
   run.prepared();
   std::size_t tried = 0;
   bool over = false;

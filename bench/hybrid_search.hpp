@@ -29,11 +29,10 @@ struct CarWay {
 /// there. A way that it finds is free; where it finds none, a finer grid might.
 class HybridSearch {
  public:
-  /// @param map see planning_map(). @param body the robot on it.
+  /// @param body the robot on a map, see planning_map().
   /// @param motion dubins or reeds_shepp. @param turning_radius map units.
   /// @throws SuiteError when the turning radius is less than a quarter of a pixel or more than a million of them.
-  HybridSearch(const OccupancyMap& map, std::shared_ptr<const CollisionBody> body, Motion motion,
-               double turning_radius);
+  HybridSearch(std::shared_ptr<const CollisionBody> body, Motion motion, double turning_radius);
 
   /// Where the disc that the robot holds fits anywhere in a pixel; once all of that is tried, where it may fit
   /// somewhere.
@@ -45,7 +44,6 @@ class HybridSearch {
   friend class HybridRun;
 
   std::shared_ptr<const CollisionBody> body_;
-  OccupancyMap map_;
   bool reverse_;
   double radius_;
   std::shared_ptr<ompl::base::StateSpace> space_;

@@ -176,11 +176,11 @@ std::vector<Query> scenario_queries(const QuerySource& source, const NamedMap& n
 }  // namespace
 
 Ground::Ground(const OccupancyMap& map, const PlanSuite& suite, double scale)
-    : suite_(suite), scale_(scale), map_(planning_map(map, suite, scale)), room_(map_) {
+    : suite_(suite), scale_(scale), room_(planning_map(map, suite, scale)) {
   const std::optional<Polygon> outline = outline_at(suite, scale);
   if (!outline) return;
-  body_ = body_on(map_, *outline);
-  room_ = inflated(map_, outline->inscribed_radius());
+  body_ = body_on(room_, *outline);
+  room_ = inflated(room_, outline->inscribed_radius());
 }
 
 std::optional<Pose2> Ground::draw(const Eigen::Vector2d& place, Random& random) const {
@@ -192,7 +192,7 @@ std::optional<Pose2> Ground::draw(const Eigen::Vector2d& place, Random& random) 
 HybridSearch Ground::car(const std::string& motion) const {
   const auto drives = [&](const PlanRow& row) { return row.motion == motion; };
   const auto row = std::find_if(suite_.rows.begin(), suite_.rows.end(), drives);
-  return {map_, body_, motion_from_string(motion), row->turning_radius * scale_};
+  return {body_, motion_from_string(motion), row->turning_radius * scale_};
 }
 
 std::vector<Query> queries_of(const QuerySource& source, const NamedMap& named, const Ground& ground,

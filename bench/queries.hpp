@@ -51,7 +51,6 @@ class Ground {
  private:
   const PlanSuite& suite_;
   double scale_;
-  OccupancyMap map_;  ///< see planning_map()
   OccupancyMap room_;
   std::shared_ptr<const CollisionBody> body_;  ///< null without an outline
 };

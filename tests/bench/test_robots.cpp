@@ -196,7 +196,7 @@ TEST(Robots, HybridSearchKnowsWhatACarCannotDrive) {
   const OccupancyMap map(60, 8, std::vector<Cell>(480, Cell::free));
   const auto body = body_on(map, Polygon::rectangle(6.0, 5.0, 2.0));
   const auto drives = [&](Motion motion, double start, double goal) {
-    const HybridSearch search(map, body, motion, 6.0);
+    const HybridSearch search(body, motion, 6.0);
     return !search.find({10.0, 4.0, start}, {45.0, 4.0, goal}, [] { return false; }).poses.empty();
   };
   constexpr double back = 3.141592653589793;
@@ -205,8 +205,8 @@ TEST(Robots, HybridSearchKnowsWhatACarCannotDrive) {
   EXPECT_FALSE(drives(Motion::dubins, 0.0, back));
   EXPECT_TRUE(drives(Motion::reeds_shepp, back, back));
   EXPECT_FALSE(drives(Motion::reeds_shepp, 0.0, back));
-  EXPECT_THROW(HybridSearch(map, body, Motion::dubins, 0.05), SuiteError);
-  EXPECT_THROW(HybridSearch(map, body, Motion::dubins, 1e300), SuiteError);
+  EXPECT_THROW(HybridSearch(body, Motion::dubins, 0.05), SuiteError);
+  EXPECT_THROW(HybridSearch(body, Motion::dubins, 1e300), SuiteError);
 }
 
 TEST(Robots, RivalsSayWhyThereIsNoPath) {
