@@ -46,9 +46,12 @@ Strategy strategy_from_string(const std::string& word);
 
 /// When to stop. A time or iteration limit always ends the search too.
 enum class Stop {
-  first,   ///< at the first path
-  factor,  ///< when the cost is within PlanOptions::cost_factor of the reference, see there (RRT* only)
-  limit,   ///< only at a limit: use all of the time or the iterations to shorten the path (RRT* only)
+  first,  ///< at the first path
+  /// When the cost is within PlanOptions::cost_factor of the reference, see there. For planners such as RRT*.
+  factor,
+  /// Only at a limit: use all of the time or the iterations to shorten the path; or once it is as short as any can be,
+  /// such as a straight line. For planners such as RRT*.
+  limit,
 };
 
 /// @throws RequestError for an unknown word; the text lists the known ones.

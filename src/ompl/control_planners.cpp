@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "lrrt/error.hpp"
+#include "seeded_pivots.hpp"
 
 namespace lrrt {
 namespace {
@@ -29,7 +30,9 @@ class Seeded final : public Planner {
     if constexpr (std::is_same_v<Planner, oc::SST>) {  // OMPL's own radii are fixed lengths, whatever the map's unit
       this->setSelectionRadius(0.5 * settings.range);
       this->setPruningRadius(0.25 * settings.range);
+      seed_pivots(this->witnesses_, *si, settings.seed);
     }
+    if constexpr (!std::is_same_v<Planner, oc::EST>) seed_pivots(this->nn_, *si, settings.seed);
   }
 
   std::size_t nodes() const {

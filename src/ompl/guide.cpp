@@ -82,10 +82,13 @@ Eigen::Vector2d goal_position(const ob::ProblemDefinition& problem, const MapPro
   return position;
 }
 
-/// True when a cost bounds the length of the way between the one start and the one goal that there are.
-bool cost_is_length(const ob::ProblemDefinition& problem, const ob::OptimizationObjective& objective) {
-  return dynamic_cast<const ob::PathLengthOptimizationObjective*>(&objective) != nullptr &&
-         problem.getStartStateCount() == 1 && dynamic_cast<const ob::GoalState*>(problem.getGoal().get()) != nullptr;
+/// How much nearer than the goal itself a path may end; nothing unless its cost is its length, and there is one start
+/// and one goal.
+std::optional<double> goal_slack(const ob::ProblemDefinition& problem, const ob::OptimizationObjective& objective) {
+  const auto* goal = dynamic_cast<const ob::GoalState*>(problem.getGoal().get());
+  const bool length = dynamic_cast<const ob::PathLengthOptimizationObjective*>(&objective) != nullptr;
+  if (!length || goal == nullptr || problem.getStartStateCount() != 1) return std::nullopt;
+  return goal->getThreshold();
 }
 
 /// The map that a region belongs to: this one, or it in larger pixels.
@@ -111,8 +114,8 @@ LengthBound length_bound(const ob::ProblemDefinition& problem, const ob::Optimiz
   if (duration != nullptr && poses != nullptr && problem.getStartStateCount() == 1) {
     return {duration->top_speed(), poses->tolerance()};
   }
-  if (cost_is_length(problem, objective)) return {1.0, problem.getGoal()->as<ob::GoalState>()->getThreshold()};
-  return {};
+  const std::optional<double> slack = goal_slack(problem, objective);
+  return slack ? LengthBound{1.0, *slack} : LengthBound{};
 }
 
 void check(const ob::Planner& planner) {
@@ -194,7 +197,7 @@ std::shared_ptr<GuidedSource> guide(ob::Planner& planner, MapSampler sampler,
   ob::OptimizationObjectivePtr objective = problem->getOptimizationObjective();
   if (!objective) objective = std::make_shared<ob::PathLengthOptimizationObjective>(si);
   problem->setOptimizationObjective(
-      std::make_shared<GuidedObjective>(objective, source, cost_is_length(*problem, *objective)));
+      std::make_shared<GuidedObjective>(objective, *problem, source, goal_slack(*problem, *objective)));
   problem->setIntermediateSolutionCallback(
       [source, most_length = length_bound(*problem, *objective), theirs = problem->getIntermediateSolutionCallback()](
           const ob::Planner* solver, const std::vector<const ob::State*>& states, const ob::Cost cost) {

@@ -5,6 +5,7 @@
 #include <ompl/base/SpaceInformation.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace lrrt {
@@ -16,26 +17,37 @@ namespace {
 /// Tries for a state that could shorten the path. AIT* would allow four thousand million, and where the path is the
 /// straight line none fits: it then looks at no clock for minutes.
 constexpr unsigned int most_attempts = 1000;
+/// Of the cost of a path, as a share.
+constexpr double rounding = 1e-9;
+
+/// What a path costs at least; 0 where the objective has no heuristic.
+double least_cost(const ob::OptimizationObjective& objective, const ob::ProblemDefinition& problem) {
+  double least = std::numeric_limits<double>::infinity();
+  for (unsigned int i = 0; i < problem.getStartStateCount(); ++i) {
+    least = std::min(least, objective.costToGo(problem.getStartState(i), problem.getGoal().get()).value());
+  }
+  return least;
+}
 
 }  // namespace
 
 GuidedInformedSampler::GuidedInformedSampler(const ob::ProblemDefinitionPtr& problem, unsigned int attempts,
                                              ob::InformedSamplerPtr inner, std::shared_ptr<GuidedSource> source,
-                                             bool cost_is_length)
+                                             std::optional<double> goal_slack)
     : ob::InformedSampler(problem, attempts),
       inner_(std::move(inner)),
       source_(std::move(source)),
-      cost_is_length_(cost_is_length),
+      goal_slack_(source_->places_whole_states() ? goal_slack : std::nullopt),
       other_coordinates_(space_->allocDefaultStateSampler()) {}
 
 bool GuidedInformedSampler::sampleUniform(ob::State* state, const ob::Cost& most) {
-  return source_->ended(*space_, state) || guided(state, nullptr, most) || informed(state, nullptr, most) ||
-         inner_->sampleUniform(state, most);
+  if (source_->ended(*space_, state) || guided(state, nullptr, most)) return true;
+  return goal_slack_ ? uniform(state, nullptr, most) : inner_->sampleUniform(state, most);
 }
 
 bool GuidedInformedSampler::sampleUniform(ob::State* state, const ob::Cost& least, const ob::Cost& most) {
-  return source_->ended(*space_, state) || guided(state, &least, most) || informed(state, &least, most) ||
-         inner_->sampleUniform(state, least, most);
+  if (source_->ended(*space_, state) || guided(state, &least, most)) return true;
+  return goal_slack_ ? uniform(state, &least, most) : inner_->sampleUniform(state, least, most);
 }
 
 bool GuidedInformedSampler::fits(const ob::State* state, const ob::Cost* least, const ob::Cost& most) const {
@@ -57,20 +69,22 @@ bool GuidedInformedSampler::guided(ob::State* state, const ob::Cost* least, cons
   return false;
 }
 
-bool GuidedInformedSampler::informed(ob::State* state, const ob::Cost* least, const ob::Cost& most) {
-  for (unsigned int attempt = 0; cost_is_length_ && attempt < numIters_; ++attempt) {
-    if (!source_->place_informed(state, most.value())) return false;
+/// Leaves a state that was drawn even where none of them fits: some planners take it unasked.
+bool GuidedInformedSampler::uniform(ob::State* state, const ob::Cost* least, const ob::Cost& most) {
+  for (unsigned int attempt = 0; attempt < numIters_; ++attempt) {
+    source_->place_informed(state, most.value() + *goal_slack_);
     if (fits(state, least, most)) return true;
   }
   return false;
 }
 
-GuidedObjective::GuidedObjective(ob::OptimizationObjectivePtr inner, std::shared_ptr<GuidedSource> source,
-                                 bool cost_is_length)
+GuidedObjective::GuidedObjective(ob::OptimizationObjectivePtr inner, const ob::ProblemDefinition& problem,
+                                 std::shared_ptr<GuidedSource> source, std::optional<double> goal_slack)
     : ob::OptimizationObjective(inner->getSpaceInformation()),
       inner_(std::move(inner)),
       source_(std::move(source)),
-      cost_is_length_(cost_is_length) {
+      goal_slack_(goal_slack),
+      least_cost_((1.0 + rounding) * least_cost(*inner_, problem)) {
   description_ = inner_->getDescription();
   setCostThreshold(inner_->getCostThreshold());
   if (inner_->hasCostToGoHeuristic()) {
@@ -84,7 +98,7 @@ ob::InformedSamplerPtr GuidedObjective::allocInformedStateSampler(const ob::Prob
                                                                   unsigned int attempts) const {
   attempts = std::min(attempts, most_attempts);
   return std::make_shared<GuidedInformedSampler>(
-      problem, attempts, inner_->allocInformedStateSampler(problem, attempts), source_, cost_is_length_);
+      problem, attempts, inner_->allocInformedStateSampler(problem, attempts), source_, goal_slack_);
 }
 
 }  // namespace lrrt

@@ -132,10 +132,8 @@ void GuidedSource::place_near(ob::State* state, const ob::State* near, double di
   if (projection_->has_heading()) projection_->write_heading(heading + pi * (sampler_.draw_number() - 0.5), state);
 }
 
-bool GuidedSource::place_informed(ob::State* state, double length) {
-  if (!projection_->is_whole_state()) return false;
+void GuidedSource::place_informed(ob::State* state, double length) {
   write_whole(sampler_.draw_informed(start_, goal_, length / map_->resolution()), state);
-  return true;
 }
 
 void GuidedSource::improved(const std::vector<const ob::State*>& states, double length) {

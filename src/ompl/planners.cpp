@@ -31,6 +31,7 @@
 #include "directed_tree.hpp"
 #include "lrrt/error.hpp"
 #include "lrrt/ompl/grid_neighbors.hpp"
+#include "seeded_pivots.hpp"
 
 namespace lrrt {
 namespace {
@@ -81,6 +82,7 @@ class Seeded final : public Planner {
       use_grid(settings.range);
       use_directions();
     }
+    use_seed(settings.seed);
     // OMPL 1.5 warns of its own default: the plain name is for the version that connects within a radius
     if constexpr (is_a<Planner, og::BITstar>) {
       if (this->getName().front() != 'k') this->setName("k" + this->getName());
@@ -131,6 +133,28 @@ class Seeded final : public Planner {
     } else if constexpr (has_one_tree<Planner>) {
       this->nn_ = std::make_shared<GridNeighbors<typename Planner::Motion*>>(plane->getBounds(), range);
     }
+  }
+
+  /// Lets the seed decide all that is left to chance. Those of BIT* and its kin are out of reach; PRM's are for
+  /// threads.
+  void use_seed(std::uint64_t seed) {
+    const ob::SpaceInformation& si = *this->si_;
+    if constexpr (has_two_trees<Planner>) {
+      seed_pivots(this->tStart_, si, seed);
+      seed_pivots(this->tGoal_, si, seed);
+    } else if constexpr (is_a<Planner, og::BiEST>) {
+      seed_pivots(this->nnStart_, si, seed);
+      seed_pivots(this->nnGoal_, si, seed);
+    } else if constexpr (is_a<Planner, og::TRRT>) {
+      seed_pivots(this->nearestNeighbors_, si, seed);
+    } else if constexpr (is_a<Planner, og::LazyPRM>) {
+      seed_pivots(this->nn_, si, seed);
+      if (!this->nn_) return;  // setup() gives distances only to a structure that it has made itself
+      this->nn_->setDistanceFunction([this](auto a, auto b) { return this->distanceFunction(a, b); });
+    } else if constexpr (has_one_tree<Planner> || is_a<Planner, og::EST, og::FMT, og::SST>) {
+      seed_pivots(this->nn_, si, seed);
+    }
+    if constexpr (is_a<Planner, og::SST>) seed_pivots(this->witnesses_, si, seed);
   }
 
   ForwardSpace* forward_ = nullptr;  ///< where use_directions() has set up two trees

@@ -3,6 +3,7 @@
 // from the region is read from the planners' own graphs, not from the library's counters alone.
 #include <gtest/gtest.h>
 #include <ompl/base/ScopedState.h>
+#include <ompl/base/goals/GoalState.h>
 #include <ompl/base/objectives/PathLengthOptimizationObjective.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/base/spaces/SE2StateSpace.h>
@@ -32,6 +33,7 @@
 #include <ompl/geometric/planners/sst/SST.h>
 #include <ompl/util/RandomNumbers.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <functional>
@@ -287,6 +289,61 @@ TEST(GuideCheck, TheUsersObjectiveAndCallbackStay) {
   EXPECT_EQ(wrapped->getDescription(), objective->getDescription());
   scene.solve(planner, 20000);
   EXPECT_GT(calls, 0);
+}
+
+/// An informed sampler as planners get it, with the source behind it.
+struct Informed {
+  explicit Informed(double goal_tolerance = 0.0) {
+    scene.setup->getGoal()->as<ob::GoalState>()->setThreshold(goal_tolerance);
+    planner->setProblemDefinition(problem);
+    GuideOptions uniform;
+    uniform.alpha = 0.0;
+    source = guide(*planner, scene.collision, band(scene.collision->map()), uniform);
+    sampler = objective()->allocInformedStateSampler(problem, 1000);
+  }
+  ob::OptimizationObjectivePtr objective() const { return problem->getOptimizationObjective(); }
+  /// How far it is over a drawn state, from the start to the goal.
+  double detour(ob::Cost most) {
+    ob::ScopedState<> state(scene.setup->getStateSpace());
+    EXPECT_TRUE(sampler->sampleUniform(state.get(), most));
+    return std::hypot(state[0] - 15.5, state[1] - 60.5) + std::hypot(state[0] - 105.5, state[1] - 60.5);
+  }
+
+  Scene scene;
+  ob::ProblemDefinitionPtr problem = scene.setup->getProblemDefinition();
+  ob::PlannerPtr planner = std::make_shared<og::InformedRRTstar>(scene.setup->getSpaceInformation());
+  std::shared_ptr<GuidedSource> source;
+  ob::InformedSamplerPtr sampler;
+};
+
+TEST(GuideCheck, InformedSamplesCoverWhatAnExtendedGoalLeaves) {
+  // The way to the goal's edge is 80 long: over all states whose way to its centre is below 105 a path of 95 could go.
+  Informed informed(10.0);
+  double most = 0.0;
+  for (int i = 0; i < 1000; ++i) most = std::max(most, informed.detour(ob::Cost(95.0)));
+  EXPECT_LT(most, 105.0);
+  EXPECT_GT(most, 100.0);
+}
+
+TEST(GuideCheck, TheStraightLineSatisfiesEveryObjective) {
+  EXPECT_TRUE(Informed().objective()->isSatisfied(ob::Cost(90.0)));
+  EXPECT_FALSE(Informed().objective()->isSatisfied(ob::Cost(90.001)));
+  EXPECT_FALSE(Informed(10.0).objective()->isSatisfied(ob::Cost(90.0)));
+  EXPECT_TRUE(Informed(10.0).objective()->isSatisfied(ob::Cost(80.0)));
+}
+
+TEST(GuideCheck, DrawsEndWithTheSearch) {
+  // OMPL's ordered sampler draws until a state could shorten the path, and where none can it looks at no clock.
+  Informed informed;
+  bool over = false;
+  informed.source->end_with([&] { return over; }, informed.problem->getStartState(0));
+  EXPECT_GT(informed.detour(ob::Cost(200.0)), 90.0);
+  over = true;
+  EXPECT_EQ(informed.detour(ob::Cost(80.0)), 90.0);
+  const ob::State* start = informed.problem->getStartState(0);
+  const auto* goal = informed.problem->getGoal()->as<ob::GoalState>();
+  EXPECT_EQ(informed.objective()->motionCostHeuristic(start, goal->getState()).value(), 0.0);
+  EXPECT_EQ(informed.objective()->costToGo(start, goal).value(), 0.0);
 }
 
 TEST(GuideCheck, OtherSpacesNeedOnlyAProjection) {

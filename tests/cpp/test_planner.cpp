@@ -330,19 +330,19 @@ TEST(Planner, GuidanceIsAsCoarseAsItCanBe) {
   EXPECT_EQ(coarseness(8, {30.5, 60.5}), 1);  // the goal stands at the wall
 }
 
-TEST(Planner, TimeAlsoEndsDrawsThatFindNothing) {
-  // The straight line is the path: no state could shorten it, and AIT* and SORRT* draw until one does.
+TEST(Planner, TheStraightLineEndsTheSearch) {
   const OccupancyMap map = test::map_from_rows(std::vector<std::string>(20, std::string(20, '.')));
   for (const std::string& name : planner_names()) {
-    if (!shortens_its_path(name)) continue;
+    if (!shortens_its_path(name) || name == "SST") continue;  // SST takes steps of random length
     for (const Motion motion : {Motion::plane, Motion::turning}) {
       PlanOptions options = unguided(name);
       options.stop = Stop::limit;
-      options.time_limit = 0.05;
+      options.time_limit = 60.0;
       PlanRequest request{map, {5.2, 5.1}, {5.9, 5.3}};
       request.motion = motion;
       const PlanResult result = Planner(nullptr, options).plan(request);
-      EXPECT_LT(result.timings.plan, 5000.0) << name;
+      EXPECT_NEAR(result.cost, std::hypot(0.7, 0.2), 1e-9) << name;
+      EXPECT_LT(result.timings.plan, 30e3) << name;
     }
   }
 }

@@ -4,6 +4,7 @@
 
 #include <iostream>
 #include <string>
+#include <vector>
 
 #include "judge.hpp"
 #include "lrrt/error.hpp"
@@ -23,7 +24,8 @@ bool repeatable(const Query& query, const PlanResult& result) {
   return planner != "PRM" && planner != "PRMstar" && result.timings.plan < 0.5e3 * query.options().time_limit;
 }
 
-Verdict check(std::uint64_t number) {
+/// @param twice whether the same seed must give the same result.
+Verdict check(std::uint64_t number, bool twice) {
   const Query query(number);
   if (alone()) std::cout << query.words() << std::endl;
   const auto verdict = [&](const std::string& complaint, const std::string& kind) {
@@ -41,7 +43,7 @@ Verdict check(std::uint64_t number) {
     return verdict(fine ? "" : std::string("threw ") + error.what(), "refused");
   }
   std::string complaint = judge(query, result);
-  if (complaint.empty() && number % 5 == 0) {
+  if (complaint.empty() && twice) {
     const PlanResult again = Planner(query.predictor(), query.options()).plan(query.request());
     if (repeatable(query, result) && repeatable(query, again)) complaint = compare(result, again);
     if (!complaint.empty()) complaint = "the same seed gave " + complaint;
@@ -51,13 +53,19 @@ Verdict check(std::uint64_t number) {
 
 TEST(Property, AnswersToQueriesAreTrue) {
   ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);  // RRT* warns of Dubins curves, which it copes with
-  for_all(400, check);
+  for_all(400, [](std::uint64_t number) { return check(number, number % 5 == 0); });
 }
 
 TEST(Property, CasesThatOnceFailedHold) {
   ompl::msg::setLogLevel(ompl::msg::LOG_ERROR);
-  constexpr std::uint64_t abitstar_crashed = 58403;
-  EXPECT_EQ(check(abitstar_crashed).complaint, "");
+  const std::vector<std::uint64_t> cases = {
+      58403,         // ABIT* pruned its own path
+      51885,         // other pivots, other nearest nodes by Reeds-Shepp distances
+      53035,         // AIT* drew samples along a straight line that was the path
+      66729, 69220,  // OMPL's own informed sampler took the place of ours
+      74300,         // the same, with a goal that has an extent
+  };
+  for (const std::uint64_t number : cases) EXPECT_EQ(check(number, true).complaint, "") << number;
 }
 
 }  // namespace

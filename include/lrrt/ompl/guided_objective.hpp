@@ -5,19 +5,22 @@
 #include <ompl/base/samplers/InformedStateSampler.h>
 
 #include <memory>
+#include <optional>
 
 #include "lrrt/ompl/guided_sampler.hpp"
 
 namespace lrrt {
 
 /// The guided source as OMPL's InformedSampler: with probability α a guided state over which a path could still be
-/// shorter, otherwise what the objective's own informed sampler draws. For planners such as Informed RRT* and BIT*.
+/// shorter, otherwise a uniform one of them. For planners such as Informed RRT* and BIT*.
 class GuidedInformedSampler final : public ompl::base::InformedSampler {
  public:
-  /// @param cost_is_length the cost of a path is its length, and there is one start and one goal.
+  /// @param inner the objective's own informed sampler: it knows least costs, and draws the uniform states where the
+  /// source cannot. @param goal_slack how much nearer than the goal itself a path may end, where its cost is its length
+  /// and there is one start and one goal; otherwise nothing.
   GuidedInformedSampler(const ompl::base::ProblemDefinitionPtr& problem, unsigned int attempts,
                         ompl::base::InformedSamplerPtr inner, std::shared_ptr<GuidedSource> source,
-                        bool cost_is_length);
+                        std::optional<double> goal_slack);
 
   /// What OMPL asks, see ompl::base::InformedSampler.
   /// @{
@@ -29,29 +32,31 @@ class GuidedInformedSampler final : public ompl::base::InformedSampler {
     return inner_->getInformedMeasure(least, most);
   }
   ompl::base::Cost heuristicSolnCost(const ompl::base::State* state) const override {
-    return inner_->heuristicSolnCost(state);
+    return ompl::base::Cost(inner_->heuristicSolnCost(state).value() - goal_slack_.value_or(0.0));
   }
   /// @}
 
  private:
   bool guided(ompl::base::State* state, const ompl::base::Cost* least, const ompl::base::Cost& most);
-  bool informed(ompl::base::State* state, const ompl::base::Cost* least, const ompl::base::Cost& most);
+  bool uniform(ompl::base::State* state, const ompl::base::Cost* least, const ompl::base::Cost& most);
   bool fits(const ompl::base::State* state, const ompl::base::Cost* least, const ompl::base::Cost& most) const;
 
   ompl::base::InformedSamplerPtr inner_;
   std::shared_ptr<GuidedSource> source_;
-  bool cost_is_length_;
+  std::optional<double> goal_slack_;  ///< a value where the source draws the uniform states
   ompl::base::StateSamplerPtr other_coordinates_;
 };
 
-/// Another objective, word for word, but for the informed sampler that it hands out: OMPL's informed planners ask the
-/// objective for it and never the space. Once the search must end its heuristics are 0, which is always true: OMPL's
-/// ordered sampler draws until a state could shorten the path, without end where none can.
+/// Another objective, word for word, but for two things. It hands out the guided informed sampler: OMPL's informed
+/// planners ask the objective for it and never the space. And a path that costs no more than any path must, such as the
+/// straight line, satisfies it: there is nothing left to search for, and nothing for informed samplers to draw. Once
+/// the search must end its heuristics are 0, which is always true: OMPL's ordered sampler draws until a state could
+/// shorten the path, without end where none can.
 class GuidedObjective final : public ompl::base::OptimizationObjective {
  public:
-  /// @param cost_is_length see GuidedInformedSampler.
-  GuidedObjective(ompl::base::OptimizationObjectivePtr inner, std::shared_ptr<GuidedSource> source,
-                  bool cost_is_length);
+  /// @param problem with its starts and its goal. @param goal_slack see GuidedInformedSampler.
+  GuidedObjective(ompl::base::OptimizationObjectivePtr inner, const ompl::base::ProblemDefinition& problem,
+                  std::shared_ptr<GuidedSource> source, std::optional<double> goal_slack);
 
   /// What OMPL asks, see ompl::base::OptimizationObjective.
   /// @{
@@ -65,7 +70,9 @@ class GuidedObjective final : public ompl::base::OptimizationObjective {
     // then read through its missing parent.
     return ompl::base::Cost((1.0 - 1e-5) * inner_->motionCostHeuristic(from, to).value());
   }
-  bool isSatisfied(ompl::base::Cost cost) const override { return inner_->isSatisfied(cost); }
+  bool isSatisfied(ompl::base::Cost cost) const override {
+    return inner_->isSatisfied(cost) || cost.value() <= least_cost_;
+  }
   bool isCostBetterThan(ompl::base::Cost a, ompl::base::Cost b) const override {
     return inner_->isCostBetterThan(a, b);
   }
@@ -93,7 +100,8 @@ class GuidedObjective final : public ompl::base::OptimizationObjective {
  private:
   ompl::base::OptimizationObjectivePtr inner_;
   std::shared_ptr<GuidedSource> source_;
-  bool cost_is_length_;
+  std::optional<double> goal_slack_;
+  double least_cost_;  ///< no path can cost less, but for rounding
 };
 
 }  // namespace lrrt

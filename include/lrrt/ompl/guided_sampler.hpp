@@ -63,9 +63,10 @@ class GuidedSource {
   /// A state near another one. Where position and heading are all, the source draws them, so that the seed decides.
   void place_near(ompl::base::State* state, const ompl::base::State* near, double distance,
                   ompl::base::StateSampler& other);
-  /// A uniform state over which a path could be shorter than `length` (map units, infinite for any), drawn by the
-  /// source itself. @return false where states have other coordinates than their position: then OMPL has to draw it.
-  bool place_informed(ompl::base::State* state, double length);
+  /// True where a state is its position, or position and heading: then the source draws all of it.
+  bool places_whole_states() const { return projection_->is_whole_state(); }
+  /// A uniform state over which a path could be shorter than `length` (map units, infinite for any). For whole states.
+  void place_informed(ompl::base::State* state, double length);
   /// True when the next draw shall be a guided one, see MixedSampler.
   bool wants_guided() { return sampler_.wants_guided(); }
   /// Counts a draw that another sampler made, guided or not.
