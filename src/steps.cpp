@@ -51,6 +51,13 @@ void arrive(const PlanRequest& request, PlanResult& result) {
   result.cost_history = {{0.0, 0, 0.0}};
 }
 
+/// Whether the caller gave up: asked between steps, which themselves go on to their end.
+bool given_up(const PlanRequest& request, PlanResult& result) {
+  if (!request.cancel.cancelled()) return false;
+  result.status = PlanStatus::cancelled;
+  return true;
+}
+
 }  // namespace
 
 FreeSpace make_free_space(const PlanRequest& request, const RegionPredictor* predictor, PlanResult& result) {
@@ -62,12 +69,13 @@ FreeSpace make_free_space(const PlanRequest& request, const RegionPredictor* pre
 
 std::optional<Prepared> look(FreeSpace& space, const PlanRequest& request, const PlanOptions& options,
                              PlanResult& result) {
+  if (given_up(request, result)) return std::nullopt;
   const Stopwatch watch;
   Prepared prepared = space.prepare(request, options);
   result.timings.prepare += watch.total_ms();
   if (prepared.hopeless) result.status = *prepared.hopeless;
   if (prepared.arrived) arrive(request, result);
-  if (prepared.hopeless || prepared.arrived) return std::nullopt;
+  if (prepared.hopeless || prepared.arrived || given_up(request, result)) return std::nullopt;
   return prepared;
 }
 
@@ -103,6 +111,7 @@ std::string failure_of(const PlanOptions& options, const std::function<void()>& 
 }
 
 void search(const Prepared& prepared, const PlanRequest& request, PlanOptions options, PlanResult& result) {
+  if (given_up(request, result)) return;
   const Stopwatch watch;
   if (options.range == 0.0) options.range = default_range(prepared, request);
   const auto limits = std::make_shared<SearchLimits>(options.time_limit, options.iteration_limit, request.cancel);

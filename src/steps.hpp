@@ -11,7 +11,8 @@
 
 namespace lrrt {
 
-/// The steps of one plan, in their order. Each adds its time to the result's.
+/// The steps of one plan, in their order. Each adds its time to the result's; a request that was cancelled goes no step
+/// further.
 
 /// What a robot can reach on a request's map. @param predictor null where planning is unguided.
 FreeSpace make_free_space(const PlanRequest& request, const RegionPredictor* predictor, PlanResult& result);

@@ -107,7 +107,8 @@ struct Control {
 /// Lets another thread end a search. Copies share one flag, and a flag that was raised stays up: one token, one search.
 class CancelToken {
  public:
-  /// Raises the flag: the search ends within some hundredths of a second.
+  /// Raises the flag: the search ends within milliseconds, what comes before it within the step that it is at: a
+  /// prediction, or some passes over all pixels of the map.
   void cancel() { flag_->store(true, std::memory_order_relaxed); }
   /// True once the flag was raised.
   bool cancelled() const { return flag_->load(std::memory_order_relaxed); }

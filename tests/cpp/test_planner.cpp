@@ -381,6 +381,22 @@ TEST(Planner, AnotherThreadCanCancel) {
   EXPECT_TRUE(future.get().solved());  // it had found a path before it was asked to stop shortening it
 }
 
+TEST(Planner, WhatIsCancelledIsNotPredicted) {
+  class Asked final : public RegionPredictor {
+   public:
+    Prediction predict(const OccupancyMap& map, const Eigen::Vector2d&, const Eigen::Vector2d&) const override {
+      ADD_FAILURE() << "asked for a region of a map of " << map.width() << " columns";
+      throw ModelError("");
+    }
+  };
+  const OccupancyMap map = test::map_from_rows(std::vector<std::string>(60, std::string(60, '.')));
+  PlanRequest request{map, {1, 1}, {59, 59}};
+  request.cancel.cancel();
+  const PlanResult result = Planner(std::make_shared<Asked>(), {}).plan(request);
+  EXPECT_EQ(result.status, PlanStatus::cancelled);
+  EXPECT_EQ(result.timings.plan, 0.0);
+}
+
 TEST(Planner, TheTreeHoldsThePath) {
   Random random(54);
   const OccupancyMap map = test::map_from_rows(std::vector<std::string>(40, std::string(40, '.')));

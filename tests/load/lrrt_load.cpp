@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Many threads plan on one planner and one model for a while: results must equal those of one thread, memory must stay
-// flat, nothing may lock up. Then, one search at a time, how soon it ends once it is cancelled or out of time.
+// flat, nothing may lock up. Then, one at a time, how soon searches and whole plans end that are cancelled or out of
+// time.
 #include <pthread.h>
 #include <unistd.h>
 
@@ -220,6 +221,40 @@ bool time_ends(const Settings& settings) {
   return fine;
 }
 
+/// Pillars of eight pixels on a free square.
+OccupancyMap pillars(std::size_t side) {
+  const std::string free(side, '.');
+  std::string pillar = free;
+  for (std::size_t c = 12; c + 8 < side; c += 32) pillar.replace(c, 8, "########");
+  std::vector<std::string> rows(side, free);
+  for (std::size_t r = 0; r < side; ++r) {
+    if (r % 32 >= 12 && r % 32 < 20) rows[r] = pillar;
+  }
+  return test::map_from_rows(rows);
+}
+
+/// How soon whole plans end that are cancelled at any moment, what comes before the search included.
+bool plans_end(const Settings& settings, const std::shared_ptr<const RegionPredictor>& model) {
+  Random random(3);
+  bool fine = true;
+  PlanOptions options;
+  options.stop = Stop::limit;
+  options.time_limit = 600.0;
+  const Planner endless(model, options);
+  for (const std::size_t side : {256U, 1024U, 4096U}) {
+    const OccupancyMap map = pillars(side);
+    const auto far = static_cast<double>(side) - 2.5;
+    std::vector<double> delays;
+    for (int i = 0; i < settings.searches; ++i) {
+      const auto pause = static_cast<int>(random.index(10 + side / 32));
+      delays.push_back(delay_of_cancel(endless, {map, {2.5, 2.5}, {far, far}}, pause).wall);
+    }
+    const std::string what = "a plan on a map of " + std::to_string(side) + "², cancelled";
+    fine = report(what.c_str(), delays, settings.most_delay_ms) && fine;
+  }
+  return fine;
+}
+
 }  // namespace
 }  // namespace lrrt::load
 
@@ -232,7 +267,8 @@ int main(int argc, char** argv) {
   app.add_option("--most-delay", settings.most_delay_ms, "milliseconds; a later end fails")->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
   lrrt::silence_ompl();
-  const lrrt::load::Work work(std::make_shared<lrrt::OnnxPredictor>());
-  const bool same = lrrt::load::run_threads(settings, work);
-  return lrrt::load::time_ends(settings) && same ? 0 : 1;
+  const auto model = std::make_shared<lrrt::OnnxPredictor>();
+  const bool same = lrrt::load::run_threads(settings, lrrt::load::Work(model));
+  const bool in_time = lrrt::load::time_ends(settings);
+  return lrrt::load::plans_end(settings, model) && in_time && same ? 0 : 1;
 }
