@@ -75,7 +75,9 @@ TEST_P(SharedPlanner, AnswersAllThreadsAsItAnswersOne) {
 INSTANTIATE_TEST_SUITE_P(Threads, SharedPlanner, ::testing::Values("RRT", "RRTConnect", "RRTstar", "BITstar"));
 
 TEST(Threads, PrmLooksFromASecondThread) {
-  const OccupancyMap map = test::map_from_rows(std::vector<std::string>(40, std::string(40, '.')));
+  std::vector<std::string> rows(40, std::string(40, '.'));
+  rows[20].replace(5, 30, 30, '#');  // a straight line would end the search
+  const OccupancyMap map = test::map_from_rows(rows);
   PlanOptions options;
   options.planner = "PRM";
   options.strategy = Strategy::uniform;
