@@ -5,7 +5,7 @@
 
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/geometric/SimpleSetup.h>
-#include <ompl/geometric/planners/rrt/RRTstar.h>
+#include <ompl/geometric/planners/rrt/RRTConnect.h>
 
 #include <cstdio>
 #include <exception>
@@ -62,7 +62,7 @@ int main(int argc, char** argv) try {
   si->setMotionValidator(std::make_shared<lrrt::MapMotionValidator>(si, map, projection));
   set_ends(setup, start, goal);
 
-  auto planner = std::make_shared<og::RRTstar>(si);
+  auto planner = std::make_shared<og::RRTConnect>(si);
   planner->setRange(6.0);
   setup.setPlanner(planner);
   planner->setProblemDefinition(setup.getProblemDefinition());
@@ -73,7 +73,7 @@ int main(int argc, char** argv) try {
   options.range = 6.0;
   const auto source = lrrt::guide(*planner, map, region, options);
 
-  const bool solved = setup.solve(ob::timedPlannerTerminationCondition(2.0)) == ob::PlannerStatus::EXACT_SOLUTION;
+  const bool solved = setup.solve(ob::timedPlannerTerminationCondition(10.0)) == ob::PlannerStatus::EXACT_SOLUTION;
   const lrrt::DrawCounts draws = source->counts();
   std::printf("%s: %.1f pixels, %zu samples from the region, %zu from the whole map\n", solved ? "solved" : "no path",
               solved ? setup.getSolutionPath().length() : 0.0, draws.guided, draws.uniform);
