@@ -86,7 +86,7 @@ fuzz: setup ## Fuzz every reader and the planner with Clang's libFuzzer: SECONDS
 	@scripts/fuzz.sh $(SECONDS) $(FUZZ)
 
 .PHONY: nightly
-nightly: install-python ## Check many random queries by independent code: RUNS=100000 (an hour or so)
+nightly: install-python ## Check many random queries by independent code: RUNS=100000 (ten minutes or so)
 	@LRRT_PROPERTY_RUNS=$(RUNS) LRRT_PROPERTY_JOBS=$(JOBS) build/$(PRESET)/tests/lrrt_property_tests
 	@LRRT_PROPERTY_RUNS=$$(( $(RUNS) / 50 + 1 )) $(python) -m pytest -q --timeout 3600 tests/python/test_properties.py
 

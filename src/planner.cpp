@@ -12,6 +12,24 @@
 #include "steps.hpp"
 
 namespace lrrt {
+namespace {
+
+/// One step after the other, until one of them says how the plan ends.
+void take_steps(const PlanRequest& request, const RegionPredictor* predictor, const PlanOptions& options,
+                PlanResult& result) {
+  if (given_up(request, result)) return;
+  FreeSpace space = make_free_space(request, predictor, result);
+  const std::optional<Prepared> prepared = look(space, request, options, result);
+  if (!prepared) return;
+  if (predictor != nullptr) {
+    result.predict_error = failure_of(options, [&] {
+      take_region(predictor->predict(*prepared->guidance, request.start, request.goal), *prepared, request, result);
+    });
+  }
+  search(*prepared, request, options, result);
+}
+
+}  // namespace
 
 Planner::Planner(std::shared_ptr<const RegionPredictor> predictor, PlanOptions options)
     : predictor_(std::move(predictor)), options_(std::move(options)) {
@@ -27,15 +45,7 @@ PlanResult Planner::plan(const PlanRequest& request) const {
   check(request, options_);
   PlanResult result;
   const Stopwatch watch;
-  FreeSpace space = make_free_space(request, predictor_.get(), result);
-  if (const std::optional<Prepared> prepared = look(space, request, options_, result)) {
-    if (predictor_) {
-      result.predict_error = failure_of(options_, [&] {
-        take_region(predictor_->predict(*prepared->guidance, request.start, request.goal), *prepared, request, result);
-      });
-    }
-    search(*prepared, request, options_, result);
-  }
+  take_steps(request, predictor_.get(), options_, result);
   result.timings.total = watch.total_ms();
   return result;
 }

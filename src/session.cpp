@@ -103,6 +103,7 @@ class Session::Memory {
       return result;
     }
     const double before = watch.total_ms();
+    if (given_up(request, result)) return result;
     result = plan(query, cancel);
     result.timings.prepare += before;
     result.timings.total += before;
@@ -126,6 +127,7 @@ class Session::Memory {
   };
 
   void prepare(Task& task) {
+    if (given_up(task.request, task.result)) return;
     if (!space_) space_.emplace(make_free_space(task.request, planner_.predictor().get(), task.result));
     task.prepared = look(*space_, task.request, planner_.options(), task.result);
   }
@@ -138,6 +140,7 @@ class Session::Memory {
       if (task.prepared) together[task.prepared->guidance.get()].push_back(&task);
     }
     for (const auto& group : together) {
+      if (group.second.front()->request.cancel.cancelled()) return;  // search() says so of each
       const std::string failure = failure_of(planner_.options(), [&] { predict(*group.first, group.second); });
       for (Task* task : group.second) {
         task->result.predict_error = failure;

@@ -51,14 +51,13 @@ void arrive(const PlanRequest& request, PlanResult& result) {
   result.cost_history = {{0.0, 0, 0.0}};
 }
 
-/// Whether the caller gave up: asked between steps, which themselves go on to their end.
+}  // namespace
+
 bool given_up(const PlanRequest& request, PlanResult& result) {
   if (!request.cancel.cancelled()) return false;
   result.status = PlanStatus::cancelled;
   return true;
 }
-
-}  // namespace
 
 FreeSpace make_free_space(const PlanRequest& request, const RegionPredictor* predictor, PlanResult& result) {
   const Stopwatch watch;

@@ -14,6 +14,9 @@ namespace lrrt {
 /// The steps of one plan, in their order. Each adds its time to the result's; a request that was cancelled goes no step
 /// further.
 
+/// Whether the caller gave up; then the result says so. Asked before each step, which itself goes on to its end.
+bool given_up(const PlanRequest& request, PlanResult& result);
+
 /// What a robot can reach on a request's map. @param predictor null where planning is unguided.
 FreeSpace make_free_space(const PlanRequest& request, const RegionPredictor* predictor, PlanResult& result);
 

@@ -50,7 +50,7 @@ enum class Stop {
   /// When the cost is within PlanOptions::cost_factor of the reference, see there. For planners such as RRT*.
   factor,
   /// Only at a limit: use all of the time or the iterations to shorten the path; or once it is as short as any can be,
-  /// such as a straight line. For planners such as RRT*.
+  /// such as a straight line (not for driven robots). For planners such as RRT*.
   limit,
 };
 

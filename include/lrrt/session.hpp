@@ -52,7 +52,7 @@ class Session {
   /// (RRT where the robot only drives forwards). Where there is no such path, a way near by is not found, or the robot
   /// is driven (Motion::unicycle, Motion::car) or shall keep a clearance, plans as
   /// plan() does. PlanResult::reused tells how much was kept. A path that became longer than it would have to be is
-  /// kept, too; plan() looks anew.
+  /// kept, too; plan() looks anew. A call that is cancelled leaves the path of the last result for the next one.
   /// @param start map units. @param heading radians.
   /// @throws RequestError when there was no query yet, else as plan().
   PlanResult replan(const Eigen::Vector2d& start, double heading = 0.0, const CancelToken& cancel = {});

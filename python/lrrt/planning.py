@@ -103,7 +103,7 @@ def plan(
         on_predict_error: ``"raise"``, or ``"unguided"``: where the model cannot be loaded or its prediction fails, plan
             as with ``strategy="uniform"``; ``result.predict_error`` says why. A RequestError is raised either way.
         stop: ``"first"`` path, ``"factor"`` (cost within ``cost_factor`` of the straightened shortest grid path), or
-            ``"limit"``: use all the time or iterations to shorten the path, until it is a straight line.
+            ``"limit"``: use all the time or iterations to shorten the path, until it is as short as any can be.
         cost_factor: for ``stop="factor"``, at least 1.
         time_limit: seconds of search; prediction is not counted.
         iteration_limit: iterations of the planner, None for no limit.

@@ -11,9 +11,11 @@
 #include <map>
 #include <optional>
 #include <sstream>
+#include <typeinfo>
 #include <utility>
 
 #include "lrrt/error.hpp"
+#include "lrrt/ompl/clearance_objective.hpp"
 #include "lrrt/ompl/drive_space.hpp"
 #include "lrrt/ompl/guided_objective.hpp"
 #include "lrrt/ompl/guided_propagation.hpp"
@@ -82,13 +84,18 @@ Eigen::Vector2d goal_position(const ob::ProblemDefinition& problem, const MapPro
   return position;
 }
 
-/// How much nearer than the goal itself a path may end; nothing unless its cost is its length, and there is one start
-/// and one goal.
-std::optional<double> goal_slack(const ob::ProblemDefinition& problem, const ob::OptimizationObjective& objective) {
+/// Users' own kinds of lengths may cost less than the straight line.
+bool costs_length(const ob::OptimizationObjective& objective) {
+  return typeid(objective) == typeid(ob::PathLengthOptimizationObjective) ||
+         typeid(objective) == typeid(ClearanceObjective);
+}
+
+std::optional<LengthQuery> length_query(const ob::ProblemDefinition& problem,
+                                        const ob::OptimizationObjective& objective) {
   const auto* goal = dynamic_cast<const ob::GoalState*>(problem.getGoal().get());
-  const bool length = dynamic_cast<const ob::PathLengthOptimizationObjective*>(&objective) != nullptr;
-  if (!length || goal == nullptr || problem.getStartStateCount() != 1) return std::nullopt;
-  return goal->getThreshold();
+  if (!costs_length(objective) || goal == nullptr || problem.getStartStateCount() != 1) return std::nullopt;
+  const double straight = problem.getSpaceInformation()->distance(problem.getStartState(0), goal->getState());
+  return LengthQuery{goal->getThreshold(), straight - goal->getThreshold()};
 }
 
 /// The map that a region belongs to: this one, or it in larger pixels.
@@ -114,8 +121,8 @@ LengthBound length_bound(const ob::ProblemDefinition& problem, const ob::Optimiz
   if (duration != nullptr && poses != nullptr && problem.getStartStateCount() == 1) {
     return {duration->top_speed(), poses->tolerance()};
   }
-  const std::optional<double> slack = goal_slack(problem, objective);
-  return slack ? LengthBound{1.0, *slack} : LengthBound{};
+  const std::optional<LengthQuery> query = length_query(problem, objective);
+  return query ? LengthBound{1.0, query->goal_slack} : LengthBound{};
 }
 
 void check(const ob::Planner& planner) {
@@ -197,7 +204,7 @@ std::shared_ptr<GuidedSource> guide(ob::Planner& planner, MapSampler sampler,
   ob::OptimizationObjectivePtr objective = problem->getOptimizationObjective();
   if (!objective) objective = std::make_shared<ob::PathLengthOptimizationObjective>(si);
   problem->setOptimizationObjective(
-      std::make_shared<GuidedObjective>(objective, *problem, source, goal_slack(*problem, *objective)));
+      std::make_shared<GuidedObjective>(objective, source, length_query(*problem, *objective)));
   problem->setIntermediateSolutionCallback(
       [source, most_length = length_bound(*problem, *objective), theirs = problem->getIntermediateSolutionCallback()](
           const ob::Planner* solver, const std::vector<const ob::State*>& states, const ob::Cost cost) {

@@ -5,7 +5,6 @@
 #include <ompl/base/SpaceInformation.h>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace lrrt {
@@ -17,17 +16,6 @@ namespace {
 /// Tries for a state that could shorten the path. AIT* would allow four thousand million, and where the path is the
 /// straight line none fits: it then looks at no clock for minutes.
 constexpr unsigned int most_attempts = 1000;
-/// Of the cost of a path, as a share.
-constexpr double rounding = 1e-9;
-
-/// What a path costs at least; 0 where the objective has no heuristic.
-double least_cost(const ob::OptimizationObjective& objective, const ob::ProblemDefinition& problem) {
-  double least = std::numeric_limits<double>::infinity();
-  for (unsigned int i = 0; i < problem.getStartStateCount(); ++i) {
-    least = std::min(least, objective.costToGo(problem.getStartState(i), problem.getGoal().get()).value());
-  }
-  return least;
-}
 
 }  // namespace
 
@@ -54,7 +42,8 @@ bool GuidedInformedSampler::fits(const ob::State* state, const ob::Cost* least, 
   if (least == nullptr && !opt_->isFinite(most)) return true;
   const ob::Cost cost = heuristicSolnCost(state);
   const bool may_improve = !opt_->isFinite(most) || opt_->isCostBetterThan(cost, most);
-  return may_improve && (least == nullptr || !opt_->isCostBetterThan(cost, *least));
+  // planners count their least costs from the goal itself
+  return may_improve && (least == nullptr || !opt_->isCostBetterThan(inner_->heuristicSolnCost(state), *least));
 }
 
 bool GuidedInformedSampler::guided(ob::State* state, const ob::Cost* least, const ob::Cost& most) {
@@ -72,19 +61,18 @@ bool GuidedInformedSampler::guided(ob::State* state, const ob::Cost* least, cons
 /// Leaves a state that was drawn even where none of them fits: some planners take it unasked.
 bool GuidedInformedSampler::uniform(ob::State* state, const ob::Cost* least, const ob::Cost& most) {
   for (unsigned int attempt = 0; attempt < numIters_; ++attempt) {
-    source_->place_informed(state, most.value() + *goal_slack_);
+    source_->place_informed(state, to_goal_itself(most).value());
     if (fits(state, least, most)) return true;
   }
   return false;
 }
 
-GuidedObjective::GuidedObjective(ob::OptimizationObjectivePtr inner, const ob::ProblemDefinition& problem,
-                                 std::shared_ptr<GuidedSource> source, std::optional<double> goal_slack)
+GuidedObjective::GuidedObjective(ob::OptimizationObjectivePtr inner, std::shared_ptr<GuidedSource> source,
+                                 std::optional<LengthQuery> query)
     : ob::OptimizationObjective(inner->getSpaceInformation()),
       inner_(std::move(inner)),
       source_(std::move(source)),
-      goal_slack_(goal_slack),
-      least_cost_((1.0 + rounding) * least_cost(*inner_, problem)) {
+      query_(query) {
   description_ = inner_->getDescription();
   setCostThreshold(inner_->getCostThreshold());
   if (inner_->hasCostToGoHeuristic()) {
@@ -97,8 +85,9 @@ GuidedObjective::GuidedObjective(ob::OptimizationObjectivePtr inner, const ob::P
 ob::InformedSamplerPtr GuidedObjective::allocInformedStateSampler(const ob::ProblemDefinitionPtr& problem,
                                                                   unsigned int attempts) const {
   attempts = std::min(attempts, most_attempts);
-  return std::make_shared<GuidedInformedSampler>(
-      problem, attempts, inner_->allocInformedStateSampler(problem, attempts), source_, goal_slack_);
+  const auto slack = query_ ? std::optional<double>(query_->goal_slack) : std::nullopt;
+  return std::make_shared<GuidedInformedSampler>(problem, attempts,
+                                                 inner_->allocInformedStateSampler(problem, attempts), source_, slack);
 }
 
 }  // namespace lrrt

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <ompl/base/ScopedState.h>
 #include <ompl/base/goals/GoalState.h>
+#include <ompl/base/objectives/MaximizeMinClearanceObjective.h>
 #include <ompl/base/objectives/PathLengthOptimizationObjective.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/base/spaces/SE2StateSpace.h>
@@ -37,6 +38,7 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 
 #include "lrrt/error.hpp"
@@ -294,6 +296,7 @@ TEST(GuideCheck, TheUsersObjectiveAndCallbackStay) {
 /// An informed sampler as planners get it, with the source behind it.
 struct Informed {
   explicit Informed(double goal_tolerance = 0.0) {
+    scene.setup->getStateSpace()->setup();  // as planners do it, before OMPL's samplers can read states
     scene.setup->getGoal()->as<ob::GoalState>()->setThreshold(goal_tolerance);
     planner->setProblemDefinition(problem);
     GuideOptions uniform;
@@ -303,9 +306,17 @@ struct Informed {
   }
   ob::OptimizationObjectivePtr objective() const { return problem->getOptimizationObjective(); }
   /// How far it is over a drawn state, from the start to the goal.
-  double detour(ob::Cost most) {
+  double detour(ob::Cost most) const {
     ob::ScopedState<> state(scene.setup->getStateSpace());
     EXPECT_TRUE(sampler->sampleUniform(state.get(), most));
+    return over(state);
+  }
+  double detour(ob::Cost least, ob::Cost most) const {
+    ob::ScopedState<> state(scene.setup->getStateSpace());
+    EXPECT_TRUE(sampler->sampleUniform(state.get(), least, most));
+    return over(state);
+  }
+  static double over(const ob::ScopedState<>& state) {
     return std::hypot(state[0] - 15.5, state[1] - 60.5) + std::hypot(state[0] - 105.5, state[1] - 60.5);
   }
 
@@ -325,7 +336,32 @@ TEST(GuideCheck, InformedSamplesCoverWhatAnExtendedGoalLeaves) {
   EXPECT_GT(most, 100.0);
 }
 
-TEST(GuideCheck, TheStraightLineSatisfiesEveryObjective) {
+TEST(GuideCheck, LeastCostsCountFromTheGoalItself) {
+  // BIT* asks so for every state: from its own bound to the goal, which knows no extent, up to any cost.
+  const Informed informed(10.0);
+  const ob::Cost least((1.0 - 1e-5) * 90.0);
+  for (const double most : {200.0, std::numeric_limits<double>::infinity()}) {
+    double nearest = most;
+    for (int i = 0; i < 1000; ++i) nearest = std::min(nearest, informed.detour(least, ob::Cost(most)));
+    EXPECT_LT(nearest, 95.0);
+  }
+  EXPECT_GT(informed.sampler->getInformedMeasure(ob::Cost(85.0)), 0.0);
+}
+
+TEST(GuideCheck, TheStraightLineEndsNoSearchForSomethingElse) {
+  Scene scene;
+  const auto problem = scene.setup->getProblemDefinition();
+  problem->setOptimizationObjective(
+      std::make_shared<ob::MaximizeMinClearanceObjective>(scene.setup->getSpaceInformation()));
+  const auto planner = std::make_shared<og::RRTstar>(scene.setup->getSpaceInformation());
+  planner->setProblemDefinition(problem);
+  guide(*planner, scene.collision, band(scene.collision->map()));
+  for (const double clearance : {0.0, 3.0, 1e3}) {
+    EXPECT_FALSE(problem->getOptimizationObjective()->isSatisfied(ob::Cost(clearance)));
+  }
+}
+
+TEST(GuideCheck, TheStraightLineIsTheShortestPath) {
   EXPECT_TRUE(Informed().objective()->isSatisfied(ob::Cost(90.0)));
   EXPECT_FALSE(Informed().objective()->isSatisfied(ob::Cost(90.001)));
   EXPECT_FALSE(Informed(10.0).objective()->isSatisfied(ob::Cost(90.0)));

@@ -368,7 +368,9 @@ TEST(Planner, APredictorThatReturnsAnotherSizeIsRefused) {
 }
 
 TEST(Planner, AnotherThreadCanCancel) {
-  const OccupancyMap map = test::map_from_rows(std::vector<std::string>(60, std::string(60, '.')));
+  std::vector<std::string> rows(60, std::string(60, '.'));
+  rows[30].replace(5, 50, 50, '#');  // a straight line would end the search
+  const OccupancyMap map = test::map_from_rows(rows);
   PlanOptions options = unguided();
   options.stop = Stop::limit;
   options.time_limit = 60.0;

@@ -74,10 +74,15 @@ TEST_P(SharedPlanner, AnswersAllThreadsAsItAnswersOne) {
 
 INSTANTIATE_TEST_SUITE_P(Threads, SharedPlanner, ::testing::Values("RRT", "RRTConnect", "RRTstar", "BITstar"));
 
-TEST(Threads, PrmLooksFromASecondThread) {
+/// A wall in the middle: a straight line would end every search.
+OccupancyMap walled() {
   std::vector<std::string> rows(40, std::string(40, '.'));
-  rows[20].replace(5, 30, 30, '#');  // a straight line would end the search
-  const OccupancyMap map = test::map_from_rows(rows);
+  rows[20].replace(5, 30, 30, '#');
+  return test::map_from_rows(rows);
+}
+
+TEST(Threads, PrmLooksFromASecondThread) {
+  const OccupancyMap map = walled();
   PlanOptions options;
   options.planner = "PRM";
   options.strategy = Strategy::uniform;
@@ -87,7 +92,7 @@ TEST(Threads, PrmLooksFromASecondThread) {
 }
 
 TEST(Threads, OneTokenEndsAllSearches) {
-  const OccupancyMap map = test::map_from_rows(std::vector<std::string>(40, std::string(40, '.')));
+  const OccupancyMap map = walled();
   PlanOptions options;
   options.strategy = Strategy::uniform;
   options.time_limit = 600.0;

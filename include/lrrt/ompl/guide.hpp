@@ -41,10 +41,11 @@ MapSampler make_sampler(const std::shared_ptr<const OccupancyMap>& map, const Pr
 /// Makes a planner of any OMPL set-up draw from a promising region, whatever way it asks for samples: the sampler
 /// allocators of its space information, the informed sampler of its objective, the motions and the better paths that
 /// tell the strategy how far the tree has come. Everything else of the set-up stays as it is, but that a path which
-/// costs no more than any path must (the objective's own bound, e.g. the straight line) ends the search.
+/// is as short as any can be (the straight line, where the objective is the length) ends the search.
 ///
 /// The planner must have its problem (start, goal, objective if any) and must not be set up yet. Where the problem has
-/// no objective, it gets that of the path's length, OMPL's own default.
+/// no objective, it gets that of the path's length, OMPL's own default. Start and goal stay what they are: other ones
+/// need a planner and a problem of their own.
 ///
 /// @param map where the robot's reference point may be: for a robot with a body, inflated by what it needs at least.
 /// @param region of the same map, or of the map coarsened. @param projection how the planner's states touch the map; by

@@ -11,13 +11,18 @@
 
 namespace lrrt {
 
+/// A query with one start and one goal state, and paths that cost their length at least.
+struct LengthQuery {
+  double goal_slack = 0.0;  ///< how much nearer than the goal itself a path may end
+  double shortest = 0.0;    ///< no path is shorter
+};
+
 /// The guided source as OMPL's InformedSampler: with probability α a guided state over which a path could still be
 /// shorter, otherwise a uniform one of them. For planners such as Informed RRT* and BIT*.
 class GuidedInformedSampler final : public ompl::base::InformedSampler {
  public:
   /// @param inner the objective's own informed sampler: it knows least costs, and draws the uniform states where the
-  /// source cannot. @param goal_slack how much nearer than the goal itself a path may end, where its cost is its length
-  /// and there is one start and one goal; otherwise nothing.
+  /// source cannot. @param goal_slack see LengthQuery; nothing for other queries.
   GuidedInformedSampler(const ompl::base::ProblemDefinitionPtr& problem, unsigned int attempts,
                         ompl::base::InformedSamplerPtr inner, std::shared_ptr<GuidedSource> source,
                         std::optional<double> goal_slack);
@@ -27,9 +32,11 @@ class GuidedInformedSampler final : public ompl::base::InformedSampler {
   bool sampleUniform(ompl::base::State* state, const ompl::base::Cost& most) override;
   bool sampleUniform(ompl::base::State* state, const ompl::base::Cost& least, const ompl::base::Cost& most) override;
   bool hasInformedMeasure() const override { return inner_->hasInformedMeasure(); }
-  double getInformedMeasure(const ompl::base::Cost& cost) const override { return inner_->getInformedMeasure(cost); }
+  double getInformedMeasure(const ompl::base::Cost& cost) const override {
+    return inner_->getInformedMeasure(to_goal_itself(cost));
+  }
   double getInformedMeasure(const ompl::base::Cost& least, const ompl::base::Cost& most) const override {
-    return inner_->getInformedMeasure(least, most);
+    return inner_->getInformedMeasure(least, to_goal_itself(most));
   }
   ompl::base::Cost heuristicSolnCost(const ompl::base::State* state) const override {
     return ompl::base::Cost(inner_->heuristicSolnCost(state).value() - goal_slack_.value_or(0.0));
@@ -37,6 +44,10 @@ class GuidedInformedSampler final : public ompl::base::InformedSampler {
   /// @}
 
  private:
+  /// What a path may cost that goes on to the goal itself: OMPL's informed samplers know no goal with an extent.
+  ompl::base::Cost to_goal_itself(const ompl::base::Cost& cost) const {
+    return ompl::base::Cost(cost.value() + goal_slack_.value_or(0.0));
+  }
   bool guided(ompl::base::State* state, const ompl::base::Cost* least, const ompl::base::Cost& most);
   bool uniform(ompl::base::State* state, const ompl::base::Cost* least, const ompl::base::Cost& most);
   bool fits(const ompl::base::State* state, const ompl::base::Cost* least, const ompl::base::Cost& most) const;
@@ -48,15 +59,15 @@ class GuidedInformedSampler final : public ompl::base::InformedSampler {
 };
 
 /// Another objective, word for word, but for two things. It hands out the guided informed sampler: OMPL's informed
-/// planners ask the objective for it and never the space. And a path that costs no more than any path must, such as the
-/// straight line, satisfies it: there is nothing left to search for, and nothing for informed samplers to draw. Once
-/// the search must end its heuristics are 0, which is always true: OMPL's ordered sampler draws until a state could
-/// shorten the path, without end where none can.
+/// planners ask the objective for it and never the space. And a path as short as any can be, such as the straight line,
+/// satisfies it: there is nothing left to search for, and nothing for informed samplers to draw. Once the search must
+/// end its heuristics are 0, which is always true: OMPL's ordered sampler draws until a state could shorten the path,
+/// without end where none can.
 class GuidedObjective final : public ompl::base::OptimizationObjective {
  public:
-  /// @param problem with its starts and its goal. @param goal_slack see GuidedInformedSampler.
-  GuidedObjective(ompl::base::OptimizationObjectivePtr inner, const ompl::base::ProblemDefinition& problem,
-                  std::shared_ptr<GuidedSource> source, std::optional<double> goal_slack);
+  /// @param query nothing where costs are no lengths, or where there are several starts or another kind of goal.
+  GuidedObjective(ompl::base::OptimizationObjectivePtr inner, std::shared_ptr<GuidedSource> source,
+                  std::optional<LengthQuery> query);
 
   /// What OMPL asks, see ompl::base::OptimizationObjective.
   /// @{
@@ -71,7 +82,8 @@ class GuidedObjective final : public ompl::base::OptimizationObjective {
     return ompl::base::Cost((1.0 - 1e-5) * inner_->motionCostHeuristic(from, to).value());
   }
   bool isSatisfied(ompl::base::Cost cost) const override {
-    return inner_->isSatisfied(cost) || cost.value() <= least_cost_;
+    constexpr double rounding = 1e-9;
+    return inner_->isSatisfied(cost) || (query_ && cost.value() <= (1.0 + rounding) * query_->shortest);
   }
   bool isCostBetterThan(ompl::base::Cost a, ompl::base::Cost b) const override {
     return inner_->isCostBetterThan(a, b);
@@ -100,8 +112,7 @@ class GuidedObjective final : public ompl::base::OptimizationObjective {
  private:
   ompl::base::OptimizationObjectivePtr inner_;
   std::shared_ptr<GuidedSource> source_;
-  std::optional<double> goal_slack_;
-  double least_cost_;  ///< no path can cost less, but for rounding
+  std::optional<LengthQuery> query_;
 };
 
 }  // namespace lrrt
