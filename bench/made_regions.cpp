@@ -106,7 +106,7 @@ class BadRegion final : public RegionPredictor {
   Prediction predict(const OccupancyMap& map, const Eigen::Vector2d& start,
                      const Eigen::Vector2d& goal) const override {
     const Plane perfect = perfect_plane(map, start, goal);
-    return GivenRegion(made_({map, start, goal, perfect})).predict(map, start, goal);
+    return GivenRegion(map.width(), map.height(), made_({map, start, goal, perfect})).predict(map, start, goal);
   }
 
  private:

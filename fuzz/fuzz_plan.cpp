@@ -98,8 +98,8 @@ PlanRequest made_request(FuzzedDataProvider& bytes, const OccupancyMap& map) {
 std::shared_ptr<const RegionPredictor> made_predictor(FuzzedDataProvider& bytes, const OccupancyMap& map) {
   if (bytes.ConsumeBool()) return std::make_shared<AStarPredictor>(number(bytes, 5.0));
   std::vector<float> probability(map.size());
-  for (float& p : probability) p = static_cast<float>(std::clamp(number(bytes, 1.0), -1e30, 1e30));
-  return std::make_shared<GivenRegion>(std::move(probability));
+  for (float& p : probability) p = static_cast<float>(std::clamp(number(bytes, 1.0), 0.0, 1.0));
+  return std::make_shared<GivenRegion>(map.width(), map.height(), std::move(probability));
 }
 
 void check(const PlanRequest& request, const PlanOptions& options, const PlanResult& result) {

@@ -16,6 +16,7 @@
 #include "lrrt/stopwatch.hpp"
 #include "map_changes.hpp"
 #include "neighbourhood.hpp"
+#include "predict/number_of_query.hpp"
 #include "steps.hpp"
 #include "trail.hpp"
 
@@ -59,9 +60,10 @@ class Session::Memory {
   std::vector<PlanResult> plan(const std::vector<Query>& queries, const CancelToken& cancel) {
     std::vector<Task> tasks;
     tasks.reserve(queries.size());
-    for (const Query& query : queries) {
-      tasks.push_back({request_for(query, cancel), std::nullopt, {}});
-      check(tasks.back().request, planner_.options());
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      tasks.push_back({request_for(queries[i], cancel), std::nullopt, {}});
+      const auto check_it = [&] { check(tasks.back().request, planner_.options()); };
+      queries.size() > 1 ? naming_query(i, check_it) : check_it();
     }
     if (!tasks.empty()) last_ = queries.back();
     for (Task& task : tasks) prepare(task);

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from lrrt._core import OccupancyMap, PlanResult, PromisingRegion
+from lrrt._core import OccupancyMap, PlanResult, PromisingRegion, RequestError
 from lrrt.planning import Point
 
 if TYPE_CHECKING:
@@ -43,12 +43,16 @@ def draw(
         start: red disc; by default the first point of the result's path.
         goal: blue square; by default the last point of the result's path.
         ax: matplotlib axes to draw into.
+
+    Raises:
+        RequestError: the region is one of a map of another size.
     """
     axes = _new_axes() if ax is None else ax
     _show(axes, map, _GREYS[map.cells], "map")
     if region is None and result is not None:
         region = result.region
     if region is not None:
+        _check_belongs(region, map)
         _show(axes, map, _overlay(region), "region", region.coarseness)
     if result is not None:
         _draw_tree(axes, result)
@@ -61,6 +65,13 @@ def draw(
             _draw_marker(axes, point, color, marker, label)
     _set_view(axes, map)
     return axes
+
+
+def _check_belongs(region: PromisingRegion, map: OccupancyMap) -> None:
+    height, width = region.mask.shape
+    columns, rows = (1 + (side - 1) // region.coarseness for side in (map.width, map.height))
+    if (width, height) != (columns, rows):
+        raise RequestError(f"a region of {width}×{height} pixels does not belong to this map: expected {columns}×{rows}")
 
 
 def _new_axes() -> Axes:

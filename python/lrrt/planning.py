@@ -3,7 +3,10 @@
 
 from __future__ import annotations
 
+import contextlib
+import operator
 import os
+import reprlib
 import threading
 from collections.abc import Sequence
 from typing import Any
@@ -42,9 +45,41 @@ def default_predictor() -> OnnxPredictor:
         return _default
 
 
-def as_point(point: Point) -> npt.NDArray[np.float64]:
-    """(x, y) as the extension module takes it."""
-    return np.asarray(point, dtype=np.float64)
+def as_point(point: Point, name: str) -> npt.NDArray[np.float64]:
+    """(x, y) as the extension module takes it.
+
+    Raises:
+        RequestError: it is no pair of real numbers; the text begins with ``name``.
+    """
+    with contextlib.suppress(ValueError, TypeError):  # what no array can hold
+        pair = np.asarray(point)
+        if pair.shape == (2,) and pair.dtype.kind in "fiu":
+            return pair.astype(np.float64)
+    raise RequestError(f"{name} is {reprlib.repr(point)}: expected (x, y), two numbers in map units")
+
+
+def as_count(value: int, name: str) -> int:
+    """A number of 64 bits as the extension module takes it.
+
+    Raises:
+        RequestError: it is no whole number, or out of range; the text begins with ``name``.
+    """
+    with contextlib.suppress(TypeError):
+        if 0 <= operator.index(value) < 1 << 64:
+            return operator.index(value)
+    raise RequestError(f"{name} is {reprlib.repr(value)}: expected a whole number from 0 to 2**64 - 1")
+
+
+def as_outline(corners: Sequence[Point] | npt.NDArray[np.floating[Any]]) -> list[npt.NDArray[np.float64]]:
+    """A robot's corners as the extension module takes them.
+
+    Raises:
+        RequestError: they are no sequence of points.
+    """
+    try:
+        return [as_point(corner, f"outline[{i}]") for i, corner in enumerate(corners)]
+    except TypeError as error:
+        raise RequestError(f"outline is {reprlib.repr(corners)}: expected points (x, y) in map units") from error
 
 
 def plan(
@@ -153,16 +188,16 @@ def plan(
         stop=stop,
         cost_factor=cost_factor,
         time_limit=time_limit,
-        iteration_limit=iteration_limit,
+        iteration_limit=None if iteration_limit is None else as_count(iteration_limit, "iteration_limit"),
         range=range,
         goal_bias=goal_bias,
         goal_tolerance=goal_tolerance,
         radius=radius,
         unknown=unknown,
-        seed=seed,
+        seed=as_count(seed, "seed"),
         keep_tree=keep_tree,
         neighbors=neighbors,
-        outline=None if outline is None else [as_point(corner) for corner in outline],
+        outline=None if outline is None else as_outline(outline),
         motion=motion,
         turning_radius=turning_radius,
         simplify=simplify,
@@ -174,7 +209,8 @@ def plan(
         clearance=clearance,
         clearance_weight=clearance_weight,
     )
-    return _core.plan(settings, predictor, map, as_point(start), as_point(goal), start_heading, goal_heading, cancel)
+    ends = as_point(start, "start"), as_point(goal, "goal")
+    return _core.plan(settings, predictor, map, *ends, start_heading, goal_heading, cancel)
 
 
 def choose_predictor(

@@ -3,16 +3,30 @@
 
 from __future__ import annotations
 
+import reprlib
 import threading
 from collections.abc import Iterable
 from typing import Any
 
 from lrrt import _core
-from lrrt._core import CancelToken, OccupancyMap, PlanResult, RegionPredictor
-from lrrt.planning import Point, as_point, choose_predictor
+from lrrt._core import CancelToken, OccupancyMap, PlanResult, RegionPredictor, RequestError
+from lrrt.planning import Point, as_count, as_outline, as_point, choose_predictor
 
 #: (start, goal) or (start, goal, start_heading, goal_heading)
 QueryLike = tuple[Point, Point] | tuple[Point, Point, float, float]
+
+
+def _asked(query: QueryLike, name: str) -> _core.Query:
+    try:
+        start, goal, *headings = query
+        complete = len(headings) in (0, 2)
+    except (TypeError, ValueError):
+        complete = False
+    if not complete:
+        raise RequestError(
+            f"{name} is {reprlib.repr(query)}: expected (start, goal) or (start, goal, start_heading, goal_heading)"
+        )
+    return _core.Query(as_point(start, f"{name}: start"), as_point(goal, f"{name}: goal"), *headings)
 
 
 class Session:
@@ -38,7 +52,9 @@ class Session:
 
     def __init__(self, map: OccupancyMap, *, predictor: RegionPredictor | None = None, **options: Any) -> None:
         if options.get("outline") is not None:
-            options["outline"] = [as_point(corner) for corner in options["outline"]]
+            options["outline"] = as_outline(options["outline"])
+        for name in {"seed", "iteration_limit"} & options.keys():
+            options[name] = None if options[name] is None else as_count(options[name], name)
         predictor = choose_predictor(
             predictor,
             options.pop("model", None),
@@ -68,7 +84,9 @@ class Session:
         Raises:
             RequestError, ModelError: as ``lrrt.plan``.
         """
-        return self.plan_many([(start, goal, start_heading, goal_heading)], cancel=cancel)[0]
+        query = _core.Query(as_point(start, "start"), as_point(goal, "goal"), start_heading, goal_heading)
+        with self._lock:
+            return self._session.plan([query], cancel)[0]
 
     def plan_many(self, queries: Iterable[QueryLike], *, cancel: CancelToken | None = None) -> list[PlanResult]:
         """Plans many queries; the network marks their regions together. The results are those of ``plan()``.
@@ -78,9 +96,9 @@ class Session:
             cancel: a token that another thread may use to end the search.
 
         Raises:
-            RequestError, ModelError: as ``lrrt.plan``; then there is no result.
+            RequestError, ModelError: as ``lrrt.plan``, with the query's number; then there is no result.
         """
-        asked = [_core.Query(as_point(query[0]), as_point(query[1]), *query[2:]) for query in queries]
+        asked = [_asked(query, f"queries[{i}]") for i, query in enumerate(queries)]
         with self._lock:
             return self._session.plan(asked, cancel)
 
@@ -95,7 +113,7 @@ class Session:
             RequestError: there was no query yet.
         """
         with self._lock:
-            return self._session.replan(as_point(start), heading, cancel)
+            return self._session.replan(as_point(start, "start"), heading, cancel)
 
     def update(self, part: OccupancyMap) -> None:
         """The map has changed.

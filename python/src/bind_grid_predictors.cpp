@@ -12,6 +12,7 @@ void bind_grid_predictors(py::module_& module) {
       .def(py::init([](const DenseArray<float>& probability, float threshold) {
              if (probability.ndim() != 2) throw RequestError("a region is an (H, W) array of probabilities");
              return std::make_shared<GivenRegion>(
+                 static_cast<int>(probability.shape(1)), static_cast<int>(probability.shape(0)),
                  std::vector<float>(probability.data(), probability.data() + probability.size()), threshold);
            }),
            py::arg("probability"), py::arg("threshold") = 0.5F,

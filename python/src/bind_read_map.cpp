@@ -22,7 +22,7 @@ Image image_from(const py::object& decoded) {
 }
 
 OccupancyMap read(const std::filesystem::path& path, const py::function& decode) {
-  return read_map(path, [&](const std::filesystem::path& picture) { return image_from(decode(picture.string())); });
+  return read_map(path, [&](const std::filesystem::path& picture) { return image_from(decode(picture)); });
 }
 
 }  // namespace
@@ -35,7 +35,10 @@ void bind_read_map(py::module_& module) {
 
   py::class_<Scenario>(module, "Scenario", "One problem of a MovingAI .scen file.")
       .def_readonly("bucket", &Scenario::bucket, "Difficulty class.")
-      .def_readonly("map", &Scenario::map, "Path of the map as the file gives it.")
+      .def_property_readonly(
+          "map",
+          [](const Scenario& s) { return py::reinterpret_steal<py::str>(PyUnicode_DecodeFSDefault(s.map.c_str())); },
+          "Path of the map as the file gives it.")
       .def_readonly("width", &Scenario::width, "Width of the map, pixels.")
       .def_readonly("height", &Scenario::height, "Height of the map, pixels.")
       .def_property_readonly(

@@ -58,8 +58,15 @@ double twice_area(const Vertices& v) {
   return sum;
 }
 
+/// Every edge is held against every other one: as many as take some tenths of a second.
+constexpr std::size_t most_vertices = 4096;
+
 void check_vertices(const Vertices& v) {
   if (v.size() < 3) refuse("needs at least 3 vertices, got " + std::to_string(v.size()));
+  if (v.size() > most_vertices) {
+    refuse("has " + std::to_string(v.size()) + " vertices, at most " + std::to_string(most_vertices) +
+           " are taken: leave out those that are much nearer to each other than a pixel");
+  }
   for (std::size_t i = 0; i < v.size(); ++i) {
     // written so that a NaN fails
     if (!(std::abs(v[i].x()) <= farthest && std::abs(v[i].y()) <= farthest))

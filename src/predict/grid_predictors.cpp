@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <string>
 #include <utility>
 
 #include "free_pixel.hpp"
@@ -21,6 +22,10 @@ void check_length(const char* name, double value) {
   std::ostringstream text;
   text << name << " of " << value << " pixels: expected a finite number, 0 or more";
   throw RequestError(text.str());
+}
+
+std::string size_of(int width, int height) {
+  return std::to_string(width) + "×" + std::to_string(height);
 }
 
 std::vector<Eigen::Vector2d> centres(const std::vector<Pixel>& pixels) {
@@ -71,8 +76,28 @@ std::vector<Pixel> descend(const OccupancyMap& map, const DistanceField& field, 
 
 }  // namespace
 
+GivenRegion::GivenRegion(int width, int height, std::vector<float> probability, float threshold)
+    : width_(width), height_(height), probability_(std::move(probability)), threshold_(threshold) {
+  const std::string size = size_of(width, height);
+  if (width < 1 || height < 1 ||
+      probability_.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
+    throw RequestError("a region of " + size + " pixels needs a probability for each, got " +
+                       std::to_string(probability_.size()));
+  }
+  for (std::size_t i = 0; i < probability_.size(); ++i) {
+    if (probability_[i] >= 0.0F && probability_[i] <= 1.0F) continue;  // written so that a NaN fails
+    const auto columns = static_cast<std::size_t>(width);
+    throw RequestError("the probability of pixel (" + std::to_string(i % columns) + ", " + std::to_string(i / columns) +
+                       ") is " + std::to_string(probability_[i]) + ": expected a number from 0 to 1");
+  }
+}
+
 Prediction GivenRegion::predict(const OccupancyMap& map, const Eigen::Vector2d& start,
                                 const Eigen::Vector2d& goal) const {
+  if (map.width() != width_ || map.height() != height_) {
+    throw RequestError("the given region has " + size_of(width_, height_) + " pixels, the map " +
+                       size_of(map.width(), map.height()) + ": expected the same size");
+  }
   const Stopwatch watch;
   PromisingRegion region(map, probability_, free_pixel(map, start, "start"), free_pixel(map, goal, "goal"), threshold_);
   PredictTimings timings;

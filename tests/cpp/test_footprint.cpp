@@ -73,6 +73,7 @@ testing::AssertionResult names(const std::string& text, const std::string& part)
 
 TEST(Polygon, NamesWhatIsWrong) {
   EXPECT_TRUE(names(refusal({{0, 0}, {1, 0}}), "at least 3"));
+  EXPECT_TRUE(names(refusal(std::vector<Eigen::Vector2d>(5000, {1, 1})), "at most 4096"));
   EXPECT_TRUE(names(refusal({{0, 0}, {1, 0}, {nan, 1}}), "vertex 2"));
   EXPECT_TRUE(names(refusal({{0, 0}, {infinity, 0}, {1, 1}}), "vertex 1"));
   EXPECT_TRUE(names(refusal({{0, 0}, {1, 0}, {1, 2e9}}), "vertex 2"));

@@ -68,7 +68,7 @@ TEST(PredictMany, PredictorsWithoutANetworkGoOneByOne) {
     const std::vector<RegionQuery> queries = test::random_queries(map, 7, random);
     EXPECT_EQ(test::expect_one_by_one(AStarPredictor(), map, queries), std::set<int>{0});
     test::expect_one_by_one(PotentialFieldPredictor(), map, queries);
-    test::expect_one_by_one(GivenRegion(std::vector<float>(map.size(), 0.7F)), map, queries);
+    test::expect_one_by_one(GivenRegion(map.width(), map.height(), std::vector<float>(map.size(), 0.7F)), map, queries);
   }
 }
 

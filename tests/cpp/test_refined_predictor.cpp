@@ -87,7 +87,7 @@ TEST(RefinedPredictor, WhereThereIsNoWayTheRegionStaysAsItIs) {
   std::vector<std::string> rows(10, std::string(80, '.'));
   for (std::string& row : rows) row[40] = '#';
   const OccupancyMap map = test::map_from_rows(rows);
-  const GivenRegion all(std::vector<float>(map.size(), 1.0F));
+  const GivenRegion all(map.width(), map.height(), std::vector<float>(map.size(), 1.0F));
   const auto inner = std::make_shared<GivenRegion>(all);
   const Prediction prediction = RefinedPredictor(inner, {32, 8}).predict(map, {2.5, 2.5}, {77.5, 2.5});
   EXPECT_FALSE(prediction.region.connected());

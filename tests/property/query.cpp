@@ -178,7 +178,7 @@ void Query::make_region(Random& random) {
   for (float& p : probability) {
     if (region_ == "inverted") p = 1.0F - p;
   }
-  predictor_ = std::make_shared<GivenRegion>(std::move(probability));
+  predictor_ = std::make_shared<GivenRegion>(map_->width(), map_->height(), std::move(probability));
 }
 
 std::string Query::words() const {

@@ -105,6 +105,20 @@ def test_pictures_are_read_by_brightness(tmp_path, name):
     np.testing.assert_array_equal(lrrt.read_map(tmp_path / name).cells == 1, occupied)
 
 
+def test_file_names_need_be_no_text(tmp_path):
+    cells = np.zeros((4, 6), bool)
+    cells[1, 2] = True
+    name = os.fsdecode(b"map\xff")
+    Image.fromarray(np.where(cells, 0, 255).astype(np.uint8)).save(tmp_path / f"{name}.png", format="png")
+    assert np.array_equal(lrrt.read_map(tmp_path / f"{name}.png").cells == 1, cells)
+    folder = tmp_path / name
+    folder.mkdir()
+    with pytest.raises(lrrt.MapError, match="not a regular file"):
+        lrrt.read_map(folder)
+    (tmp_path / "one.scen").write_bytes(b"version 1\n0\tmap\xff.map\t6\t4\t0\t0\t1\t0\t1\n")
+    assert lrrt.read_scenarios(tmp_path / "one.scen")[0].map == f"{name}.map"
+
+
 def test_transparent_pixels_are_unknown(tmp_path):
     rgba = np.full((3, 3, 4), 255, dtype=np.uint8)
     rgba[1, 1] = (0, 0, 0, 0)

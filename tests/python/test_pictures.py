@@ -30,6 +30,12 @@ def test_draw_shows_what_it_is_given(hall):
     assert labels(lrrt.draw(hall, result=result)) == ["goal", "map", "path", "region", "start", "tree"]
 
 
+def test_draw_refuses_a_region_of_another_map(hall):
+    region = lrrt.plan(hall, (10.5, 35.5), (55.5, 5.5)).region
+    with pytest.raises(lrrt.RequestError, match="does not belong"):
+        lrrt.draw(lrrt.OccupancyMap.from_array(np.zeros((7, 9), bool)), region=region)
+
+
 def test_draw_uses_map_units():
     m = lrrt.OccupancyMap.from_array(np.zeros((20, 40), bool), resolution=0.5, origin=(-3.0, 7.0, 0.0))
     axes = lrrt.draw(m)

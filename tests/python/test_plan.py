@@ -188,12 +188,48 @@ def test_a_region_of_another_size_is_the_callers_mistake():
     for word in ("raise", "unguided"):
         with pytest.raises(lrrt.RequestError):
             lrrt.plan(OPEN, (1, 1), (50, 50), predictor=region, on_predict_error=word)
+    turned = lrrt.GivenRegion(np.ones((30, 120), np.float32))  # as many pixels as the map
+    with pytest.raises(lrrt.RequestError, match="120×30 pixels, the map 60×60"):
+        lrrt.plan(OPEN, (1, 1), (50, 50), predictor=turned)
+
+
+@pytest.mark.parametrize("value", [math.nan, -0.1, 7.0])
+def test_a_region_of_no_probabilities_is_refused(value):
+    region = np.ones((60, 60), np.float32)
+    region[3, 5] = value
+    with pytest.raises(lrrt.RequestError, match=r"pixel \(5, 3\)"):
+        lrrt.GivenRegion(region)
 
 
 @pytest.mark.parametrize("point", [(math.nan, 1), (1, math.inf)])
 def test_points_that_are_no_numbers_are_refused(point):
     with pytest.raises(lrrt.RequestError, match="start"):
         lrrt.plan(OPEN, point, (50, 50))
+
+
+@pytest.mark.parametrize("point", ["abc", None, (1,), (1, 2, 3), (1j, 2), [None, 1], (10**400, 1), ((1, 2), (3, 4))])
+def test_what_is_no_point_is_refused_by_name(point):
+    for name, ends in (("start", (point, (50, 50))), ("goal", ((1, 1), point))):
+        with pytest.raises(lrrt.RequestError, match=rf"^{name} is .*expected \(x, y\)"):
+            lrrt.plan(OPEN, *ends, strategy="uniform")
+    with pytest.raises(lrrt.RequestError, match=r"^outline\[1\] is "):
+        lrrt.plan(OPEN, (1, 1), (50, 50), strategy="uniform", motion="turning", outline=[(1, 1), point, (0, 1)])
+
+
+@pytest.mark.parametrize("name", ["seed", "iteration_limit"])
+@pytest.mark.parametrize("value", [-1, 1 << 64, 1.5, "3"])
+def test_counts_out_of_range_are_refused_by_name(name, value):
+    with pytest.raises(lrrt.RequestError, match=f"^{name} is "):
+        lrrt.plan(OPEN, (1, 1), (50, 50), strategy="uniform", **{name: value})
+    with pytest.raises(lrrt.RequestError, match=f"^{name} is "):
+        lrrt.Session(OPEN, strategy="uniform", **{name: value})
+
+
+def test_an_outline_of_too_many_corners_is_refused_at_once():
+    angles = np.linspace(0.0, 2.0 * math.pi, 60_000, endpoint=False)
+    circle = np.column_stack((np.cos(angles), np.sin(angles)))
+    with pytest.raises(lrrt.RequestError, match="60000 vertices, at most 4096"):
+        lrrt.plan(OPEN, (1, 1), (50, 50), strategy="uniform", motion="turning", outline=circle)
 
 
 def test_neighbours_change_nothing_but_the_time():

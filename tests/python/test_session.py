@@ -85,6 +85,20 @@ def test_what_it_cannot_do_is_refused(session: lrrt.Session) -> None:
         lrrt.Session(session.map, strategy="uniform", alpha=2.0)
 
 
+@pytest.mark.parametrize(
+    ("query", "text"),
+    [
+        (((1, 2),), "expected \\(start, goal\\)"),
+        (5, "expected"),
+        (((1, 2), "x"), "goal is"),
+        (((1, 1), (9e9, 9e99 * 1e300)), "goal"),
+    ],
+)
+def test_many_queries_are_refused_by_number(session: lrrt.Session, query, text) -> None:
+    with pytest.raises(lrrt.RequestError, match=rf"^queries\[1\].*{text}"):
+        session.plan_many([((2.5, 2.5), (3.5, 3.5)), query])
+
+
 def test_ctrl_c_ends_a_long_query() -> None:
     before = signal.signal(signal.SIGINT, signal.default_int_handler)  # where a shell had it ignored
     map_ = lrrt.OccupancyMap.from_array(rooms())

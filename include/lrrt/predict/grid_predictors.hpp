@@ -10,14 +10,16 @@ namespace lrrt {
 /// A region that the caller already has, whatever made it.
 class GivenRegion final : public RegionPredictor {
  public:
-  /// @param probability row-major, one value in [0, 1] per pixel of the maps that will be asked for.
-  /// @param threshold a free pixel is promising from this probability on, in (0, 1].
-  explicit GivenRegion(std::vector<float> probability, float threshold = 0.5F)
-      : probability_(std::move(probability)), threshold_(threshold) {}
-  /// @throws RequestError when the map has another number of pixels or the threshold is out of range.
+  /// @param width,height pixels of the maps that will be asked for. @param probability row-major, one value in [0, 1]
+  /// for each. @param threshold a free pixel is promising from this probability on, in (0, 1].
+  /// @throws RequestError when there is another number of values, or one out of range.
+  GivenRegion(int width, int height, std::vector<float> probability, float threshold = 0.5F);
+  /// @throws RequestError when the map has another size or the threshold is out of range.
   Prediction predict(const OccupancyMap& map, const Eigen::Vector2d& start, const Eigen::Vector2d& goal) const override;
 
  private:
+  int width_;
+  int height_;
   std::vector<float> probability_;
   float threshold_;
 };
