@@ -71,7 +71,7 @@ def _check_belongs(region: PromisingRegion, map: OccupancyMap) -> None:
     height, width = region.mask.shape
     columns, rows = (1 + (side - 1) // region.coarseness for side in (map.width, map.height))
     if (width, height) != (columns, rows):
-        raise RequestError(f"a region of {width}×{height} pixels does not belong to this map: expected {columns}×{rows}")
+        raise RequestError(f"a region of {width}×{height} pixels is none of this map: expected {columns}×{rows}")
 
 
 def _new_axes() -> Axes:
