@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import json
 import math
+import os
+import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+from typing import Annotated, Any, NoReturn
 
 import typer
 from rich.console import Console
@@ -18,15 +20,15 @@ from rich.table import Table
 
 from lrrt._core import Error, OccupancyMap, OnnxPredictor, PlanResult, __version__, planner_names
 from lrrt.drawing import draw
-from lrrt.maps import read_map
+from lrrt.maps import read_map_with_sources
+from lrrt.outputs import check_picture, save_picture
 from lrrt.planning import default_predictor, plan
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 EXIT_BAD_INPUT = 2
 EXIT_NO_PATH = 3
 EXIT_INTERRUPTED = 130
+
+_LARGEST_SEED = 2**64 - 1
 
 SWEEP_HELP = (
     "Share a benchmark suite between machines, with Ray.\n\n"
@@ -77,7 +79,7 @@ Start = Annotated[tuple[float, float], typer.Option(metavar="X Y", help="Where t
 Goal = Annotated[tuple[float, float], typer.Option(metavar="X Y", help="Where it ends.")]
 Model = Annotated[Path | None, typer.Option(metavar="FILE", help="ONNX model; the one that ships by default.")]
 Pixels = Annotated[bool, typer.Option("--pixels", help="Start and goal are pixels (x right, y down) on any map.")]
-Picture = Annotated[Path | None, typer.Option(metavar="FILE", help="Draw the outcome into this picture.")]
+Picture = Annotated[Path | None, typer.Option(metavar="FILE", help="Draw the outcome into this .png, .pdf or .svg.")]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object instead of a table.")]
 
 
@@ -103,7 +105,7 @@ def plan_command(
     reach: Annotated[float, typer.Option("--range", help="Longest extension of the tree; 0 chooses by the map.")] = 0.0,
     radius: Annotated[float, typer.Option(help="Radius of a disc-shaped robot, map units; 0 is a point.")] = 0.0,
     unknown: Annotated[str, typer.Option(help="What unknown pixels count as: occupied or free.")] = "occupied",
-    seed: Annotated[int, typer.Option(min=0, help="Same seed, same path.")] = 1,
+    seed: Annotated[int, typer.Option(min=0, max=_LARGEST_SEED, help="Same seed, same path.")] = 1,
     pixels: Pixels = False,
     as_json: Json = False,
     picture: Picture = None,
@@ -115,7 +117,7 @@ def plan_command(
     Example: [bold]lrrt plan office.yaml --start -1.5 2 --goal 14 9.5 --radius 0.2 --json[/bold]
     """
     try:
-        map_, ends = _read(map_path, start, goal, pixels)
+        map_, ends = _read(map_path, start, goal, pixels, model, picture)
         with Console(stderr=True).status(f"planning, up to {time_limit:g} s (Ctrl-C ends it) …"):
             result = plan(
                 map_,
@@ -135,7 +137,7 @@ def plan_command(
                 keep_tree=picture is not None,
             )
         if picture is not None:
-            _save(draw(map_, result=result, start=ends[0], goal=ends[1]), picture)
+            save_picture(draw(map_, result=result, start=ends[0], goal=ends[1]), picture)
     except Error as error:
         _fail(error)
     if result.predict_error:
@@ -153,7 +155,9 @@ def predict_command(
     map_path: MapPath,
     start: Start,
     goal: Goal,
-    picture: Annotated[Path, typer.Option(metavar="FILE", help="Picture to write: the map with the region in green.")],
+    picture: Annotated[
+        Path, typer.Option(metavar="FILE", help="The map with the region in green: .png, .pdf or .svg.")
+    ],
     model: Model = None,
     pixels: Pixels = False,
     as_json: Json = False,
@@ -163,10 +167,10 @@ def predict_command(
     Example: [bold]lrrt predict maze.png --start 10.5 10.5 --goal 240 250 --picture region.png[/bold]
     """
     try:
-        map_, ends = _read(map_path, start, goal, pixels)
+        map_, ends = _read(map_path, start, goal, pixels, model, picture)
         predictor = default_predictor() if model is None else OnnxPredictor(model)
         region, timings = predictor.predict_timed(map_, *ends)
-        _save(draw(map_, region=region, start=ends[0], goal=ends[1]), picture)
+        save_picture(draw(map_, region=region, start=ends[0], goal=ends[1]), picture)
     except Error as error:
         _fail(error)
     if as_json:
@@ -264,7 +268,9 @@ def sweep_command(
     ] = "local",
     bench: Annotated[str, typer.Option(metavar="PROGRAM", help="lrrt_bench, in PATH or with its path.")] = "lrrt_bench",
     runs: Annotated[int | None, typer.Option(min=1, metavar="N", help="Seeds a query, instead of the suite's.")] = None,
-    seed: Annotated[int | None, typer.Option(min=0, metavar="S", help="Seed of the first run.")] = None,
+    seed: Annotated[
+        int | None, typer.Option(min=0, max=_LARGEST_SEED, metavar="S", help="Seed of the first run.")
+    ] = None,
     time_limit: Annotated[float | None, typer.Option(metavar="SECONDS", help="Longest search.")] = None,
     cpus: Annotated[
         int, typer.Option(min=1, metavar="N", help="CPUs that a shard reserves; guided rows use up to 2.")
@@ -321,19 +327,18 @@ def result_fields(result: PlanResult) -> dict[str, Any]:
 
 
 def _read(
-    path: Path, start: tuple[float, float], goal: tuple[float, float], pixels: bool
+    path: Path,
+    start: tuple[float, float],
+    goal: tuple[float, float],
+    pixels: bool,
+    model: Path | None,
+    picture: Path | None,
 ) -> tuple[OccupancyMap, list[Any]]:
-    map_ = read_map(path)
+    """The map with start and goal in its units, once it is known that the picture may be written."""
+    map_, sources = read_map_with_sources(path)
+    if picture is not None:
+        check_picture(picture, sources if model is None else [*sources, model])
     return map_, [map_.to_world(point) if pixels else point for point in (start, goal)]
-
-
-def _save(axes: Axes, picture: Path) -> None:
-    try:
-        axes.figure.savefig(picture)  # type: ignore[union-attr]
-    except (OSError, ValueError) as error:
-        raise Error(
-            f"{picture}: cannot be written ({error}); expected a .png, .pdf or .svg in a folder that exists"
-        ) from error
 
 
 def _fail(error: Exception) -> NoReturn:
@@ -384,4 +389,12 @@ def _result_table(map_: OccupancyMap, result: PlanResult) -> Table:
 
 def main() -> None:
     """Entry point of the command ``lrrt``."""
-    app()
+    try:
+        app()
+    except OSError as error:  # a reader that went away is none: that is told by the exit code alone
+        if error.filename is not None:
+            raise
+        _say("[bold red]error:[/bold red]", f"standard output: cannot be written ({error.strerror or error})")
+        # What is still held back would be written, and fail, again as Python ends.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(EXIT_BAD_INPUT)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "../map/file_bytes.hpp"
 #include "image_header.hpp"
@@ -49,6 +51,15 @@ cv::Mat decode_with_opencv(std::string& bytes, const std::string& source, const 
   }
 }
 
+/// OpenCV passes over the transparency of greys, which is no channel in the file.
+cv::Mat with_alpha(const cv::Mat& greys, int transparent) {
+  cv::Mat alpha = greys != transparent;
+  if (greys.depth() == CV_16U) alpha.convertTo(alpha, CV_16U, 257.0);
+  cv::Mat both;
+  cv::merge(std::vector<cv::Mat>{greys, alpha}, both);
+  return both;
+}
+
 }  // namespace
 
 Image decode_image(const std::filesystem::path& path) {
@@ -63,7 +74,9 @@ Image decode_image(const std::filesystem::path& path) {
   }
   check_map_size(header->width, header->height, source);
   if (!header->complete) fail_damaged(source, header->format, "it is cut off");
-  const cv::Mat mat = decode_with_opencv(bytes, source, header->format);
+  cv::Mat mat = decode_with_opencv(bytes, source, header->format);
+  const std::optional<int> transparent = detail::transparent_grey(bytes);
+  if (transparent && mat.channels() == 1) mat = with_alpha(mat, *transparent);
   if (mat.empty()) fail_damaged(source, header->format, "its pixels cannot be decoded");
   if (mat.depth() == CV_8U) return to_image<std::uint8_t>(mat);
   if (mat.depth() == CV_16U) return to_image<std::uint16_t>(mat);

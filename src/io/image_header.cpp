@@ -69,10 +69,36 @@ bool starts_with(std::string_view bytes, std::string_view magic) {
   return bytes.substr(0, magic.size()) == magic;
 }
 
+constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n"sv;
+
+/// The data of a PNG's first chunk of a name; empty where there is none before the pixels.
+std::string_view png_chunk(std::string_view bytes, std::string_view name) {
+  std::size_t at = png_signature.size();
+  while (at + 12 <= bytes.size() && bytes.substr(at + 4, 4) != "IDAT"sv) {
+    const auto length = static_cast<std::size_t>(big_endian(bytes, at, 4));
+    if (bytes.substr(at + 4, 4) == name) return bytes.substr(at + 8, length);
+    at += 12 + length;
+  }
+  return {};
+}
+
 }  // namespace
 
+std::optional<int> transparent_grey(std::string_view bytes) {
+  if (!starts_with(bytes, png_signature)) return std::nullopt;
+  const std::string_view header = png_chunk(bytes, "IHDR"sv);
+  const std::string_view value = png_chunk(bytes, "tRNS"sv);
+  const bool grey = header.size() == 13 && byte_at(header, 9) == 0;
+  if (!grey || value.size() != 2) return std::nullopt;
+  const std::int64_t depth = byte_at(header, 8);
+  const std::int64_t sample = big_endian(value, 0, 2);
+  if (depth == 16) return static_cast<int>(sample);
+  if (depth < 1 || depth > 8) return std::nullopt;
+  return static_cast<int>(sample * 255 / ((1 << depth) - 1));
+}
+
 std::optional<ImageHeader> read_image_header(std::string_view bytes) {
-  if (starts_with(bytes, "\x89PNG\r\n\x1a\n"sv)) return png_header(bytes);
+  if (starts_with(bytes, png_signature)) return png_header(bytes);
   if (starts_with(bytes, "BM"sv)) return bmp_header(bytes);
   if (starts_with(bytes, "\xff\xd8\xff"sv)) return jpeg_header(bytes);
   return std::nullopt;

@@ -18,4 +18,8 @@ struct ImageHeader {
 /// Format and size of a PNG, BMP or JPEG file; nothing for another format. A header that is cut off has size 0×0.
 std::optional<ImageHeader> read_image_header(std::string_view bytes);
 
+/// The value that stands for transparent in a PNG of greys, as decoders scale its pixels: to 8 bits, or 16. Nothing for
+/// other pictures; what is transparent in those, decoders tell by an alpha channel.
+std::optional<int> transparent_grey(std::string_view bytes);
+
 }  // namespace lrrt::detail

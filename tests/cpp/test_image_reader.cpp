@@ -138,6 +138,14 @@ TEST(DecodeImage, ResolvesPalettesWithTransparency) {
   EXPECT_EQ(image.pixels, (Pixels{10, 20, 30, 255, 200, 100, 50, 0}));
 }
 
+TEST(DecodeImage, ResolvesAGreyThatStandsForTransparent) {
+  const std::filesystem::path folder = LRRT_TEST_DATA;
+  const auto cells = [&](const char* name) { return read_map(folder / name).cells(); };
+  EXPECT_EQ(cells("transparent_grey_4.png"), (Cells{Cell::occupied, Cell::unknown, Cell::unknown, Cell::occupied}));
+  EXPECT_EQ(cells("transparent_grey_8.png"), (Cells{Cell::occupied, Cell::occupied, Cell::free, Cell::unknown}));
+  EXPECT_EQ(cells("transparent_grey_16.png"), (Cells{Cell::unknown, Cell::free, Cell::occupied, Cell::unknown}));
+}
+
 TEST(DecodeImage, ResolvesGreyWithAlpha) {
   // 2×1 pixels, PNG colour type 4: (40, 255) and (90, 7).
   static constexpr unsigned char grey_alpha_png[] = {

@@ -83,6 +83,79 @@ def test_bad_input_exits_with_2_and_one_clear_line(picture, words, message):
     assert "Traceback" not in run.stderr
 
 
+def tree(folder: Path) -> dict[str, bytes]:
+    return {str(path): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
+
+
+def refused_before_planning(monkeypatch, folder: Path, *words: object) -> str:
+    """What is said of words that are refused; nothing was planned, predicted or written."""
+    monkeypatch.chdir(folder)
+    for name in ("plan", "default_predictor", "OnnxPredictor"):
+        monkeypatch.setattr(cli, name, lambda *_, **__: pytest.fail("was called"))
+    before = tree(folder)
+    run = invoke(*words)
+    assert run.exit_code == 2 and run.stderr.startswith("error:"), run.output
+    assert tree(folder) == before
+    return run.stderr
+
+
+@pytest.mark.parametrize("command", ["plan", "predict"])
+@pytest.mark.parametrize("output", ["map.png", "./map.png", "soft.png", "hard.png", "model.svg"])
+def test_a_picture_never_overwrites_what_is_read(picture, tmp_path, monkeypatch, command, output):
+    (tmp_path / "soft.png").symlink_to("map.png")
+    (tmp_path / "hard.png").hardlink_to(picture)
+    (tmp_path / "model.svg").write_bytes(b"a model")
+    query = (command, "map.png", "--start", 5, 5, "--goal", 35, 5, "--model", "model.svg")
+    said = refused_before_planning(monkeypatch, tmp_path, *query, "--picture", output)
+    assert "which is read" in said and "another file" in said
+
+
+def test_a_picture_never_overwrites_that_of_a_map_server_map(picture, tmp_path, monkeypatch):
+    (tmp_path / "map.yaml").write_text(
+        "image: map.png\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n"
+    )
+    query = ("plan", "map.yaml", "--start", 0.5, 2, "--goal", 3.5, 2)
+    assert "map.png" in refused_before_planning(monkeypatch, tmp_path, *query, "--picture", "map.png")
+
+
+@pytest.mark.parametrize("output", ["", ".", "/", "out", "out.pgf", "out.jpg", ".png", "folder.png", "no/folder/x.png"])
+def test_pictures_that_cannot_be_written_are_refused_before_planning(picture, tmp_path, monkeypatch, output):
+    (tmp_path / "folder.png").mkdir()
+    query = ("plan", "map.png", "--start", 5, 5, "--goal", 35, 5)
+    assert ".png, .pdf or .svg" in refused_before_planning(monkeypatch, tmp_path, *query, "--picture", output)
+
+
+@pytest.mark.parametrize("name", ["out.PNG", "out.pdf", "out.svg"])
+def test_pictures_of_every_kind_are_written(picture, tmp_path, name):
+    run = invoke("plan", picture, "--start", 5, 5, "--goal", 35, 5, "--picture", tmp_path / name)
+    assert run.exit_code == 0 and (tmp_path / name).stat().st_size > 1000
+
+
+def test_a_picture_with_a_name_that_is_too_long_exits_with_2(picture, tmp_path):
+    run = invoke("plan", picture, "--start", 5, 5, "--goal", 6, 6, "--picture", tmp_path / f"{'x' * 256}.png")
+    assert run.exit_code == 2 and "cannot be written" in run.stderr
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no /dev/full")
+@pytest.mark.parametrize(
+    "words", [("plan", "MAP", "--start", 5, 5, "--goal", 6, 6), ("info", "--json"), ("--help",), ("--version",)]
+)
+def test_a_full_disk_is_told_in_one_line(picture, words):
+    command = [sys.executable, "-m", "lrrt", *(str(picture if word == "MAP" else word) for word in words)]
+    with Path("/dev/full").open("w") as full:
+        run = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True)
+    assert run.returncode == 2 and run.stderr.startswith("error: standard output: cannot be written"), run.stderr
+    assert len(run.stderr.splitlines()) == 1
+
+
+def test_a_seed_has_64_bits(picture):
+    query = ("plan", picture, "--start", 5, 5, "--goal", 6, 6, "--json", "--seed")
+    assert invoke(*query, 2**64 - 1).exit_code == 0
+    for seed in (2**64, -1):
+        run = invoke(*query, seed)
+        assert run.exit_code == 2 and "--seed" in run.stderr and "Traceback" not in run.stderr
+
+
 def test_missing_options_exit_with_2(picture):
     assert invoke("plan", picture).exit_code == 2
 

@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 from __future__ import annotations
 
+import io
+import itertools
 import math
 import os
+import struct
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +20,7 @@ from PIL import Image
 import lrrt
 from lrrt import demo
 from lrrt.pictures import decode_picture
+from lrrt.png import SIGNATURE
 
 DATA = Path(__file__).parents[1] / "data"
 
@@ -124,6 +129,94 @@ def test_transparent_pixels_are_unknown(tmp_path):
     rgba[1, 1] = (0, 0, 0, 0)
     Image.fromarray(rgba).save(tmp_path / "map.png")
     assert lrrt.read_map(tmp_path / "map.png").cells[1, 1] == 2
+
+
+def chunk(name: bytes, data: bytes = b"", wrong: int = 0) -> bytes:
+    return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data) ^ wrong)
+
+
+def png(
+    rows: list[bytes], depth: int, color: int, *before: bytes, width: int = 0, after: tuple[bytes, ...] = ()
+) -> bytes:
+    """A PNG of bytes of rows, with chunks before its pixels, and other chunks in place of its end."""
+    width = width or len(rows[0]) * 8 // depth // {0: 1, 2: 3, 3: 1}[color]
+    header = struct.pack(">IIBBBBB", width, len(rows), depth, color, 0, 0, 0)
+    pixels = chunk(b"IDAT", zlib.compress(b"".join(b"\0" + row for row in rows)))
+    return b"".join([SIGNATURE, chunk(b"IHDR", header), *before, pixels, *(after or (chunk(b"IEND"),))])
+
+
+def cells_of(folder: Path, content: bytes) -> list[int]:
+    (folder / "map.png").write_bytes(content)
+    return lrrt.read_map(folder / "map.png").cells[0].tolist()
+
+
+def test_no_bit_of_a_png_can_flip_unseen(tmp_path):
+    buffer = io.BytesIO()
+    Image.fromarray(np.where(np.random.default_rng(1).random((24, 24)) < 0.7, 255, 0).astype(np.uint8)).save(
+        buffer, "PNG"
+    )
+    content = buffer.getvalue()
+    for at, bit in itertools.product(range(len(SIGNATURE), len(content)), (0, 3, 7)):
+        flipped = bytearray(content)
+        flipped[at] ^= 1 << bit
+        (tmp_path / "map.png").write_bytes(flipped)
+        with pytest.raises(lrrt.MapError, match="damaged picture"):
+            decode_picture(tmp_path / "map.png")
+
+
+PALETTE = chunk(b"PLTE", bytes([0, 0, 0, 255, 255, 255]))
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (png([b"\xff"], 8, 0, after=(b"",)), "it is cut off"),
+        (png([b"\xff"], 8, 0)[:-1], "it is cut off"),
+        (png([b"\xff"], 8, 0, after=(chunk(b"IEND", wrong=1),)), "IEND does not match its checksum"),
+        (png([b"\xff"], 8, 0, chunk(b"tEXt", b"a\0b", wrong=1)), "tEXt does not match its checksum"),
+        (png([b"\xff"], 8, 0, chunk(b"ABCD")), "ABCD is unknown"),
+        (png([b"\xff"], 8, 0, chunk(b"a\0cd")), "is no name of a chunk"),
+        (png([b"\xff"], 8, 0, after=(chunk(b"tEXt"), chunk(b"IDAT"), chunk(b"IEND"))), "one run of IDAT"),
+        (SIGNATURE + chunk(b"IEND"), "its chunks are not IHDR"),
+        (SIGNATURE + chunk(b"IHDR", b"short") + chunk(b"IDAT") + chunk(b"IEND"), "its header"),
+        (png([b"\0\1"], 8, 3), "no palette"),
+        (png([b"\0\1"], 8, 3, chunk(b"PLTE", b"four")), "no palette"),
+        (png([b"\0\1"], 8, 3, PALETTE, PALETTE), "in this order"),
+        (png([b"\0\1"], 8, 3, chunk(b"tRNS", b"\0"), PALETTE), "in this order"),
+        (png([b"\xff"], 8, 0, chunk(b"tRNS", b"\0")), "its transparency"),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "png",
+)
+def test_damaged_pngs_are_refused(tmp_path, content, words):
+    with pytest.raises(lrrt.MapError, match=rf"map\.png: damaged picture.*{words}"):
+        cells_of(tmp_path, content)
+
+
+def transparent(*values: int) -> bytes:
+    return chunk(b"tRNS", struct.pack(f">{len(values)}H", *values))
+
+
+@pytest.mark.parametrize(
+    ("content", "cells"),
+    [
+        (png([b"\x00\x32\xc8\xff"], 8, 0, transparent(255)), [1, 1, 0, 2]),
+        (png([b"\x0f\xf3"], 4, 0, transparent(15)), [1, 2, 2, 1]),
+        (png([b"\xa0"], 1, 0, transparent(1), width=4), [2, 1, 2, 1]),
+        (png([struct.pack(">3H", 65535, 65534, 0)], 16, 0, transparent(65535)), [2, 0, 1]),
+        (png([bytes([0, 0, 0, 255, 255, 255, 255, 255, 0])], 8, 2, transparent(255, 255, 255)), [1, 2, 0]),
+        (png([struct.pack(">6H", *[65535] * 3, *[257] * 3)], 16, 2, transparent(*[65535] * 3)), [2, 1]),
+        (png([b"\0\1"], 8, 3, PALETTE, chunk(b"tRNS", b"\xff\0")), [1, 2]),
+    ],
+    ids=["grey 8", "grey 4", "grey 1", "grey 16", "colour 8", "colour 16", "palette"],
+)
+def test_a_transparent_colour_of_a_png_is_unknown(tmp_path, content, cells):
+    assert cells_of(tmp_path, content) == cells
+
+
+@pytest.mark.parametrize("name", [b"zTXt", b"iCCP"])
+def test_texts_and_profiles_in_a_png_are_passed_over_however_large(tmp_path, name):
+    packed = chunk(name, b"a\0\0" + zlib.compress(bytes(100_000_000), 1))
+    assert cells_of(tmp_path, png([b"\0\xff"], 8, 0, packed)) == [1, 0]
 
 
 def test_map_server_maps_are_in_metres():

@@ -4,9 +4,12 @@
 from __future__ import annotations
 
 import copy
+import gzip
 import json
 import math
+import os
 import re
+import tracemalloc
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
@@ -17,7 +20,7 @@ from matplotlib.colors import to_hex
 from typer.testing import CliRunner
 
 from lrrt import cli
-from lrrt.report import ResultError, load, terminal_report
+from lrrt.report import ResultError, fields, load, terminal_report
 from lrrt.report import statistics as st
 from lrrt.report import tables as tb
 from lrrt.report.content import chapters
@@ -27,6 +30,7 @@ from lrrt.report.formatting import short_number
 from lrrt.report.results import PlanResults, PredictResults, pairs_of
 from lrrt.report.style import Look, looks
 from lrrt.report.views import table_of
+from lrrt.report.writing import write_file
 
 GROUP = "mazes of 25×25 blocks"
 HEAD = {
@@ -310,6 +314,10 @@ def changed(value: Any, *keys: Any) -> dict[str, Any]:
         (changed("soon", "rows", 1, "times_ms", "infer"), ["'rows[1].times_ms.infer' is \"soon\"", "a finite number"]),
         (changed(math.nan, "rows", 1, "length"), ["'rows[1].length'", "a finite number"]),
         (changed(10**400, "rows", 1, "nodes"), ["'rows[1].nodes'", "a whole number"]),
+        (changed(1e308, "rows", 0, "first_ms"), ["'rows[0].first_ms' is 1e+308", "below 1e15"]),
+        (changed(-1e15, "rows", 1, "times_ms", "total"), ["'rows[1].times_ms.total'", "below 1e15"]),
+        (changed(10**17, "rows", 1, "times_ms", "total"), ["'rows[1].times_ms.total'", "below 1e15"]),
+        (changed([[1e300, 1, 2]], "rows", 0, "history"), ["'rows[0].history'", "[milliseconds, iteration, length]"]),
         (changed("yes", "rows", 0, "solved"), ["'rows[0].solved'", "true or false"]),
         (changed([[1, 2]], "rows", 0, "history"), ["'rows[0].history'", "[milliseconds, iteration, length]"]),
     ],
@@ -328,6 +336,35 @@ def test_folders_and_missing_files_are_refused(tmp_path):
     for name in (tmp_path, tmp_path / "missing.json"):
         run = report(name, "--output", tmp_path / "out.html")
         assert run.exit_code == 2 and str(name) in run.stderr and "cannot be read" in run.stderr
+
+
+def test_pipes_and_devices_are_refused_rather_than_waited_for(tmp_path):
+    os.mkfifo(tmp_path / "pipe.json")
+    for name in (tmp_path / "pipe.json", "/dev/zero"):
+        with pytest.raises(ResultError, match=r"cannot be read \(not a regular file\)"):
+            load(name)
+
+
+@pytest.mark.parametrize("pack", [bytes, gzip.compress])
+def test_files_that_hold_too_much_are_refused_before_they_are_unpacked(tmp_path, monkeypatch, pack):
+    text = json.dumps(predictions())
+    monkeypatch.setattr(fields, "MOST_BYTES", len(text))
+    file = tmp_path / "result.json"
+    file.write_bytes(pack(text.encode()))
+    load(file)
+    file.write_bytes(pack(text.encode() + b" " * 100_000_000))
+    tracemalloc.start()
+    with pytest.raises(ResultError, match=rf"result\.json: holds more than {len(text)} bytes"):
+        load(file)
+    assert tracemalloc.get_traced_memory()[1] < 10_000_000
+    tracemalloc.stop()
+
+
+@pytest.mark.parametrize("end", [-1, 20])
+def test_gzipped_files_that_are_broken_are_named(tmp_path, end):
+    (tmp_path / "result.json.gz").write_bytes(gzip.compress(json.dumps(predictions()).encode())[:end])
+    with pytest.raises(ResultError, match=r"result\.json\.gz: is gzipped, but broken"):
+        load(tmp_path / "result.json.gz")
 
 
 def test_an_interrupted_run_is_told_from_a_broken_file(tmp_path):
@@ -349,6 +386,30 @@ def test_outputs_that_cannot_be_written_exit_with_2(tmp_path):
         assert run.exit_code == 2 and str(words[-1]) in run.stderr and "expected" in run.stderr
     assert json.loads(file.read_text()) == predictions()
     assert not list(tmp_path.glob(".*"))
+
+
+def test_links_are_followed_and_pipes_stay(tmp_path):
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "link").symlink_to("elsewhere/page")
+    (tmp_path / "other").symlink_to("pipe")
+    os.mkfifo(tmp_path / "pipe")  # stands for devices, too: one that was lost would be missed
+    reader = os.open(tmp_path / "pipe", os.O_RDONLY | os.O_NONBLOCK)
+    for name in ("link", "link", "pipe", "other"):  # the link's file is not there at first
+        write_file(tmp_path / name, "text")
+    assert os.read(reader, 100) == b"texttext"
+    os.close(reader)
+    assert (tmp_path / "link").is_symlink() and (tmp_path / "elsewhere/page").read_text() == "text"
+    assert (tmp_path / "other").is_symlink() and (tmp_path / "pipe").is_fifo()
+    assert sorted(path.name for path in tmp_path.rglob("*")) == ["elsewhere", "link", "other", "page", "pipe"]
+
+
+def test_outputs_that_fail_while_they_are_written_exit_with_2(tmp_path):
+    file = written(tmp_path, predictions())
+    (tmp_path / "circle").symlink_to("circle")
+    for output in (tmp_path / "circle", tmp_path / ("x" * 255), tmp_path / ("x" * 256)):
+        run = report(file, "--output", output)
+        assert run.exit_code == 2 and "cannot be written" in run.stderr and "expected" in run.stderr, run.output
+    assert (tmp_path / "circle").is_symlink() and not list(tmp_path.glob(".*"))
 
 
 # Figures

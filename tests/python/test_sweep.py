@@ -28,7 +28,7 @@ from worker_tasks import always_dies, dies_once, refuses, square
 from lrrt import cli
 from lrrt.report import load, terminal_report
 from lrrt.report.writing import document_text
-from lrrt.sweep import ClusterError, Sweep, SweepError, WorkerLostError, cluster, map_on_ray, merge, run_sweep
+from lrrt.sweep import ClusterError, Sweep, SweepError, WorkerLostError, cluster, map_on_ray, merge, run_sweep, running
 from lrrt.sweep.errors import ShardInterruptedError
 from lrrt.sweep.shards import Shard, ledger_of, run_shard
 
@@ -166,6 +166,18 @@ def broken(change: Any) -> dict[str, dict[str, Any]]:
         (lambda s: s["2.json"]["versions"].update(ompl="2.0.0"), ["2.json", 'versions.ompl is "2.0.0", there "1.5.2"']),
         (lambda s: s["2.json"].update(format="lrrt_bench 2"), ["2.json", "is no result file"]),
         (lambda s: s["2.json"].pop("machine"), ["2.json", "'machine' is missing"]),
+        (lambda s: s["2.json"].update(machine=5), ["2.json", "'machine' is 5", "an object"]),
+        (lambda s: s["2.json"].update(started=None), ["2.json", "'started' is null", "a text"]),
+        (lambda s: s["2.json"].update(shard=[]), ["2.json", "'shard' is []", "an object"]),
+        (lambda s: s["2.json"]["shard"].update(number="2"), ["2.json", "'shard.number'", "a whole number"]),
+        (lambda s: s["2.json"]["shard"].update(number=4), ["2.json", "'shard.number' is 4", "1 to 3"]),
+        (lambda s: s["2.json"]["shard"].update(of=10**18), ["2.json", "'shard.of'", "1 to 999999"]),
+        (lambda s: s["2.json"].update(suite={}), ["2.json", "'suite.kind' is missing"]),
+        (lambda s: s["2.json"]["suite"]["planners"][0].pop("name"), ["2.json", "'suite.planners[0].name' is missing"]),
+        (lambda s: s["2.json"].update(rows=5), ["2.json", "'rows' is 5", "a list of runs"]),
+        (lambda s: s["2.json"]["rows"].insert(0, 5), ["2.json", "'rows[0]' is 5", "an object"]),
+        (lambda s: s["2.json"]["rows"][1].pop("planner"), ["2.json", "'rows[1].planner' is missing"]),
+        (lambda s: s["2.json"]["rows"][1].update(map=[]), ["2.json", "'rows[1].map' is []", "a text"]),
         (lambda s: s["1.json"]["rows"].pop(3), ["1.json", "rows[2]", "each of RRT*, guided"]),
         (lambda s: s["1.json"]["rows"][2].update(seed=9), ["1.json", "rows[2]", "one problem and seed"]),
         (lambda s: s.update({"1.json": s["1.json"] | {"rows": s["1.json"]["rows"][:2]}}), ["1.json", "holds 1 of 5"]),
@@ -199,6 +211,20 @@ def test_the_program_shards_what_is_merged_again(bench, tmp_path):
     assert all(merged[key] == single[key] for key in ("suite", "folder", "inputs", "versions", "machine"))
     (tmp_path / "merged.json").write_text(document_text(merged), encoding="utf-8")
     assert "40 of 40 rows are the same" in run(tmp_path / "again.json", "--replay", str(tmp_path / "merged.json"))
+
+
+@pytest.mark.parametrize(
+    "content",
+    [b"\xff\xfe", b"[" * 100_000, b"{", b"5", b"{}", b'{"format": "lrrt_bench 1"}'],
+    ids=["bytes", "deep", "cut", "number", "empty", "head"],
+)
+def test_a_shard_that_was_damaged_is_named_with_what_to_do(fake, content):
+    shard = fake / "out.json.shard-2-of-3.json"
+    running._token(sweep_of(fake))  # begins the sweep
+    shard.write_bytes(content)
+    with pytest.raises(SweepError, match=r"shard-2-of-3\.json.*remove .*shard-2-of-3\.json to run this shard again"):
+        run_sweep(sweep_of(fake))
+    assert shard.read_bytes() == content
 
 
 # A shard on its own

@@ -6,6 +6,7 @@ from __future__ import annotations
 import gzip
 import json
 import math
+import stat
 import zlib
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,6 +15,8 @@ from typing import Any, TypeGuard
 from lrrt._core import Error
 
 _GZIP = b"\x1f\x8b"  # how gzipped files begin
+MOST_BYTES = 1 << 28  #: of a result file, unpacked; those of whole studies have some 2^20
+_MOST = 1e15  # beyond any measurement, and figures are still drawn
 _LARGEST_WHOLE = 1 << 64  # beyond any count or seed; Python would read more digits than a double holds
 
 
@@ -86,14 +89,14 @@ class Fields:
         return items
 
     def number(self, key: str) -> float:
-        """A finite number."""
+        """A finite number below 10^15."""
         value = self._values.get(key)
         if not is_number(value):
-            raise self.refuse(key, "a finite number")
+            raise self.refuse(key, "a finite number below 1e15")
         return float(value)
 
     def number_or_nan(self, key: str) -> float:
-        """A finite number, or nan where the file says null or nothing."""
+        """A finite number below 10^15, or nan where the file says null or nothing."""
         return self.number(key) if key in self else math.nan
 
     def child(self, key: str) -> Fields:
@@ -103,9 +106,9 @@ class Fields:
             raise self.refuse(key, "an object")
         return Fields(value, self._source, self.place(key))
 
-    def children(self, key: str, expected: str) -> list[Fields]:
-        """A list of objects that is not empty."""
-        items = self._items(key, expected)
+    def children(self, key: str, expected: str, or_none: bool = False) -> list[Fields]:
+        """A list of objects; it may be empty only where there may be none."""
+        items = [] if or_none and self._values.get(key) == [] else self._items(key, expected)
         for i, item in enumerate(items):
             if not isinstance(item, dict):
                 raise Fields({f"{key}[{i}]": item}, self._source, self._place).refuse(f"{key}[{i}]", "an object")
@@ -127,10 +130,8 @@ class Fields:
 
 
 def is_number(value: object) -> TypeGuard[float]:
-    """Whether a JSON value is a finite number; true and false are none."""
-    if isinstance(value, int):
-        return not isinstance(value, bool) and abs(value) <= _LARGEST_WHOLE
-    return isinstance(value, float) and math.isfinite(value)
+    """Whether a JSON value is a finite number below 10^15, or above its negative; true and false are none."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < _MOST  # nan is not
 
 
 def read_object(path: Path, writer: str = "lrrt_bench --json") -> Fields:
@@ -165,13 +166,27 @@ def read_document(path: Path, writer: str = "lrrt_bench --json") -> dict[str, An
 
 def _text_of(path: Path, expected: str) -> str:
     try:
-        content = path.read_bytes()
+        content = _content_of(path)
+    except (EOFError, gzip.BadGzipFile, zlib.error) as error:
+        raise ResultError(f"{path}: is gzipped, but broken ({error}); {expected}") from error
     except OSError as error:
         raise ResultError(f"{path}: cannot be read ({error.strerror or error}); {expected}") from error
+    if len(content) > MOST_BYTES:
+        raise ResultError(f"{path}: holds more than {MOST_BYTES} bytes; {expected}; is it the right file?")
     try:
-        # By its first bytes: a file that was renamed is read, too.
-        return (gzip.decompress(content) if content.startswith(_GZIP) else content).decode("utf-8")
+        return content.decode("utf-8")
     except UnicodeDecodeError as error:
         raise ResultError(f"{path}: is no text ({error.reason} at byte {error.start}); {expected}") from error
-    except (EOFError, OSError, zlib.error) as error:
-        raise ResultError(f"{path}: is gzipped, but broken ({error}); {expected}") from error
+
+
+def _content_of(path: Path) -> bytes:
+    """What a file holds, unpacked; one byte too many where it holds too much."""
+    if not stat.S_ISREG(path.stat().st_mode):  # a pipe would be waited for, a device never ends
+        raise OSError("not a regular file")
+    with path.open("rb") as stream:
+        packed = stream.read(len(_GZIP)) == _GZIP  # by its first bytes: a file that was renamed is read, too
+        stream.seek(0)
+        if not packed:
+            return stream.read(MOST_BYTES + 1)
+        with gzip.GzipFile(fileobj=stream) as unpacked:
+            return unpacked.read(MOST_BYTES + 1)

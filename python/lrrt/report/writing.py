@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
+import stat
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -42,7 +44,7 @@ def write_report(
     text = None if markdown_file is None else Path(markdown_file)
     folder = None if figures is None else Path(figures)
     _check_targets(sources, [page] if text is None else [page, text])
-    if folder is not None and folder.exists() and not folder.is_dir():
+    if folder is not None and os.path.exists(folder) and not os.path.isdir(folder):
         raise ResultError(f"{folder}: is a file; expected a folder for the figures")
     contents = chapters([load(path) for path in sources])
     written = [write_file(page, html.page(contents))]
@@ -59,14 +61,15 @@ def _check_targets(sources: list[Path], targets: list[Path]) -> None:
     """Finds most of what would fail before anything is read and drawn."""
     if not sources:
         raise ResultError("no result files; expected at least one that lrrt_bench --json wrote")
-    used = {path.resolve() for path in sources}
+    used = {os.path.realpath(path) for path in sources}  # resolve() gives up where links go round in circles
     for target in targets:
-        if target.resolve() in used:
+        place = os.path.realpath(target)
+        if place in used:
             raise ResultError(f"{target}: is read or written already; expected a file of its own for the report")
-        used.add(target.resolve())
-        if target.is_dir():
+        used.add(place)
+        if os.path.isdir(target):  # Path.is_dir() gives up on names that are too long
             raise ResultError(f"{target}: is a folder; {_EXPECTED}")
-        if not target.parent.is_dir():
+        if not os.path.isdir(target.parent):
             raise ResultError(f"{target}: cannot be written, there is no such folder; {_EXPECTED}")
 
 
@@ -87,12 +90,32 @@ def document_text(document: dict[str, Any]) -> str:
 
 
 def write_file(path: Path, content: str | bytes) -> Path:
-    """Writes under another name first, so that nobody sees half a file."""
-    temporary = path.with_name(f".{path.name}.part")
+    """Writes a file, or whatever else has that name: a link is followed, a device or a pipe is written and stays."""
+    data = content if isinstance(content, bytes) else content.encode("utf-8", errors="replace")
     try:
-        temporary.write_bytes(content if isinstance(content, bytes) else content.encode("utf-8", errors="replace"))
-        temporary.replace(path)
+        if _is_special(path):
+            path.write_bytes(data)
+        else:
+            _replace(Path(os.path.realpath(path)), data)
     except OSError as error:
-        temporary.unlink(missing_ok=True)
         raise ResultError(f"{path}: cannot be written ({error.strerror or error}); {_EXPECTED}") from error
     return path
+
+
+def _is_special(path: Path) -> bool:
+    try:
+        return not stat.S_ISREG(path.stat().st_mode)
+    except FileNotFoundError:
+        return False
+
+
+def _replace(file: Path, data: bytes) -> None:
+    """Writes under another name first, so that nobody sees half a file."""
+    temporary = file.with_name(f".{file.name}.part")
+    try:
+        temporary.write_bytes(data)
+        temporary.replace(file)
+    except OSError:
+        with contextlib.suppress(OSError):  # a name that is too long for the one is so for the other
+            temporary.unlink(missing_ok=True)
+        raise

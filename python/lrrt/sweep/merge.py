@@ -7,10 +7,12 @@ import json
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from lrrt.report.fields import Fields, ResultError
 from lrrt.report.results import FORMAT
 from lrrt.sweep.errors import SweepError
 
 Document = dict[str, Any]  #: a result file of lrrt_bench
+_MOST_SHARDS = 999_999  # of lrrt sweep
 _ALIKE = ("suite", "inputs", "versions")  #: what rows must share to be compared
 
 
@@ -47,7 +49,10 @@ def merge(shards: Mapping[str, Document]) -> Document:
 def check_alike(name: str, document: Document, other_name: str, other: Document) -> None:
     """Raises SweepError unless two shards have the same suite, inputs and versions; names what differs."""
     for key in _ALIKE:
-        difference = _difference(document[key], other[key], key)
+        try:
+            difference = _difference(document[key], other[key], key)
+        except RecursionError:
+            difference = f"{key} is nested too deeply"
         if difference:
             raise SweepError(
                 f"{other_name}: is no shard of the same run as {name}: {difference}; expected the same {key} in both: "
@@ -56,14 +61,39 @@ def check_alike(name: str, document: Document, other_name: str, other: Document)
 
 
 def check_document(name: str, document: object) -> Document:
-    """The document itself. Raises SweepError where it is no result of lrrt_bench."""
-    wanted = ("suite", "inputs", "versions", "machine", "started", "rows")
+    """The document itself. Raises SweepError where it is no result of lrrt_bench; names the file and the field."""
     if not isinstance(document, dict) or document.get("format") != FORMAT:
         raise SweepError(f"{name}: is no result file; expected one that lrrt_bench --json wrote ('format': '{FORMAT}')")
-    missing = [key for key in wanted if key not in document]
-    if missing:
-        raise SweepError(f"{name}: field '{missing[0]}' is missing; expected a file that lrrt_bench --json wrote")
+    try:
+        _check_fields(Fields(document, name))
+    except ResultError as error:
+        raise SweepError(f"{error}, in a file that lrrt_bench --json wrote") from error
     return document
+
+
+def _check_fields(document: Fields) -> None:
+    """Raises ResultError unless everything that is merged is there, and what it should be."""
+    for key in ("inputs", "versions", "machine"):
+        document.child(key)
+    document.text("started")
+    if "shard" in document:
+        _check_shard(document.child("shard"))
+    suite = document.child("suite")
+    rows = document.children("rows", "a list of runs", or_none=True)  # there may be more shards than runs
+    if suite.text("kind") == "plan":
+        for planner in suite.children("planners", "a list of planners"):
+            planner.text("name")
+        for row in rows:
+            row.whole("seed")
+            for key in ("map", "query", "planner"):
+                row.text(key)
+
+
+def _check_shard(shard: Fields) -> None:
+    if not 1 <= shard.whole("of") <= _MOST_SHARDS:
+        raise shard.refuse("of", f"1 to {_MOST_SHARDS}")
+    if not 1 <= shard.whole("number") <= shard.whole("of"):
+        raise shard.refuse("number", f"1 to {shard.whole('of')}")
 
 
 def _in_order(shards: Mapping[str, Document]) -> list[str]:
@@ -71,7 +101,7 @@ def _in_order(shards: Mapping[str, Document]) -> list[str]:
     by_number: dict[int, str] = {}
     of = 0
     for name, document in shards.items():
-        shard = check_document(name, document).get("shard", {"number": 1, "of": 1})  # a whole run has none
+        shard = check_document(name, document).get("shard") or {"number": 1, "of": 1}  # a whole run has none
         number, parts = shard["number"], shard["of"]
         if of not in (0, parts):
             raise SweepError(f"{name}: is shard {number} of {parts}; expected one of {of}, as the others")

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from lrrt.report.fields import ResultError, read_document
 from lrrt.report.writing import document_text, write_file
 from lrrt.sweep.cluster import map_on_ray
 from lrrt.sweep.errors import ShardInterruptedError, SweepError
@@ -141,7 +142,7 @@ def _token(sweep: Sweep) -> str:
 def _ledger(path: Path) -> dict[str, Any]:
     try:
         begun = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         begun = None
     return begun if isinstance(begun, dict) else {}
 
@@ -165,18 +166,17 @@ def _left(sweep: Sweep) -> list[Path]:
 
 def _read(file: Path) -> Document:
     try:
-        return _parsed(file, file.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise SweepError(
-            f"{file}: cannot be read ({error.strerror or error}); remove it to run this shard again"
-        ) from error
+        return check_document(file.name, read_document(file))
+    except (ResultError, SweepError) as error:
+        raise SweepError(f"{error}; remove {file} to run this shard again") from error
 
 
 def _parsed(file: Path, text: str) -> Document:
     try:
-        return check_document(file.name, json.loads(text))
-    except json.JSONDecodeError as error:
-        raise SweepError(f"{file}: is not JSON ({error}); remove it to run this shard again") from error
+        document = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise SweepError(f"{file}: is not JSON ({error}); expected what lrrt_bench --json writes") from error
+    return check_document(file.name, document)
 
 
 def _remove_traces(shards: list[Shard]) -> None:

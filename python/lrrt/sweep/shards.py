@@ -67,7 +67,7 @@ def run_shard(shard: Shard) -> str:
     """
     try:
         return _result_of(shard)
-    except OSError as error:
+    except (OSError, UnicodeDecodeError) as error:
         raise SweepError(
             f"{shard} on {platform.node()}: {error}; expected files that may be read and written"
         ) from error
@@ -86,7 +86,7 @@ def _sees_the_sweep(shard: Shard) -> bool:
     """Whether the result's folder here is the very folder of the one who sweeps, not another of the same name."""
     try:
         return bool(json.loads(ledger_of(shard.result).read_text(encoding="utf-8"))["token"] == shard.token)
-    except (OSError, ValueError, KeyError, TypeError):
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
         return False
 
 
