@@ -36,19 +36,69 @@ constexpr const char* footer =
     "                others; a failure costs the time it took, and queries that neither solved are left out\n\n"
     "Exit codes: 0 done, 2 bad input, 3 a replay differs, 130 interrupted.";
 
+/// An empty word is most often a variable of the shell that is not set: it must not read as an option left out.
+const CLI::Validator& named() {
+  static const CLI::Validator validator(
+      [](std::string& text) {
+        return std::string(text.empty() ? "is empty; is a variable of the shell not set?" : "");
+      },
+      "");
+  return validator;
+}
+
+/// Whole numbers are decimal: without this, zeros at the front would make them octal.
+const CLI::Validator& decimal() {
+  static const CLI::Validator validator(
+      [](std::string& text) {
+        const std::size_t first = text.find_first_not_of('0');
+        if (first != std::string::npos && text[first] >= '1' && text[first] <= '9') text.erase(0, first);
+        return std::string();
+      },
+      "");
+  return validator;
+}
+
+void read_seed(const std::string& text, Overrides& changes) {
+  changes.seed = seed_from_string(text);
+  if (!changes.seed) {
+    throw CLI::ValidationError("--seed", "'" + text + "': expected a whole number from 0 to 2^64 - 1");
+  }
+}
+
+void add_outputs(CLI::App& app, Request& request, CLI::Option* replay) {
+  auto* problems =
+      app.add_option(
+             "--problems", request.problems,
+             "Write the suite's maps and queries into a folder, for planners outside this program; runs nothing")
+          ->check(named())
+          ->type_name("FOLDER")
+          ->excludes(replay);
+  const auto add = [&](const char* name, std::string& file, const char* what) {
+    app.add_option(name, file, what)->check(named())->type_name("FILE")->excludes(problems);
+  };
+  add("--json", request.json, "Write configuration and every run; makes the run resumable");
+  add("--csv", request.csv, "Write one line for every run");
+  add("--ompl-log", request.ompl_log, "Write a log for OMPL's ompl_benchmark_statistics.py and Planner Arena");
+}
+
 void add_options(CLI::App& app, Request& request, bool& list) {
   auto* suite = app.add_option("--suite", request.suite, "Suite to run: a name of --list, or a file")
+                    ->check(named())
                     ->type_name("NAME|FILE.yaml");
-  auto* replay =
-      app.add_option("--replay", request.replay, "Run a result of --json again and compare")->type_name("FILE");
+  auto* replay = app.add_option("--replay", request.replay, "Run a result of --json again and compare; - reads a pipe")
+                     ->check(named())
+                     ->type_name("FILE");
   replay->excludes(suite);
   app.add_flag("--list", list, "Show the suites that ship");
   auto& changes = request.overrides;
   app.add_option("--runs", changes.runs, "Seeds a query, or predictions a setting")
+      ->transform(decimal())
       ->check(CLI::Range(1, 1000000))
       ->type_name("N")
       ->excludes(replay);
-  app.add_option("--seed", changes.seed, "Seed of the first run; the next run takes the next number")
+  app.add_option_function<std::string>(
+         "--seed", [&changes](const std::string& text) { read_seed(text, changes); },
+         "Seed of the first run; the next run takes the next number")
       ->type_name("S")
       ->excludes(replay);
   app.add_option(
@@ -59,6 +109,7 @@ void add_options(CLI::App& app, Request& request, bool& list) {
   app.add_option("--models", changes.models,
                  "Your own model files or patterns (ONNX; TorchScript where built with libtorch) in place of the "
                  "suite's, for suites that predict")
+      ->check(named())
       ->type_name("FILE...")
       ->excludes(replay);
   app.add_option("--time-limit", changes.time_limit, "Longest search")
@@ -66,6 +117,7 @@ void add_options(CLI::App& app, Request& request, bool& list) {
       ->type_name("SECONDS")
       ->excludes(replay);
   app.add_option("--jobs", request.jobs, "Runs at a time; times are only sound with 1")
+      ->transform(decimal())
       ->check(CLI::Range(1, 1024))
       ->type_name("N")
       ->capture_default_str();
@@ -73,16 +125,7 @@ void add_options(CLI::App& app, Request& request, bool& list) {
                  "Run part K of N only, so that machines can share a suite; 'lrrt sweep' does it for you")
       ->type_name("K/N")
       ->excludes(replay);
-  app.add_option("--problems", request.problems,
-                 "Write the suite's maps and queries into a folder, for planners outside this program; runs nothing")
-      ->type_name("FOLDER")
-      ->excludes(replay);
-  app.add_option("--json", request.json, "Write configuration and every run; makes the run resumable")
-      ->type_name("FILE");
-  app.add_option("--csv", request.csv, "Write one line for every run")->type_name("FILE");
-  app.add_option("--ompl-log", request.ompl_log,
-                 "Write a log for OMPL's ompl_benchmark_statistics.py and Planner Arena")
-      ->type_name("FILE");
+  add_outputs(app, request, replay);
   app.set_version_flag("--version", std::string("lrrt_bench ") + version);
 }
 

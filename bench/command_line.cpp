@@ -8,9 +8,11 @@
 #include "campaign.hpp"
 #include "machine.hpp"
 #include "ompl_log.hpp"
+#include "outputs.hpp"
 #include "problem_export.hpp"
 #include "replay.hpp"
 #include "shard.hpp"
+#include "suite_files.hpp"
 #include "table.hpp"
 
 namespace lrrt::bench {
@@ -39,15 +41,28 @@ void say_notes(const Campaign& campaign) {
   for (const std::string& note : campaign.notes) std::cerr << "note: " << note << '\n';
 }
 
-void write_outputs(const Request& request, const Suite& suite, const Json& document) {
+/// The report first: the files may fail.
+void deliver(const std::string& report, const Request& request, const Suite& suite, ResultFile& results,
+             const Json& document) {
+  std::cout << report << std::flush;
+  results.finish(document);
   if (!request.csv.empty()) write_file(request.csv, is_plan(suite) ? plan_csv(document) : predict_csv(document));
   if (!request.ompl_log.empty()) write_file(request.ompl_log, ompl_log(document));
 }
 
-void check_outputs(const Request& request, const Suite& suite) {
+/// Whether the files asked for can be written, and none of them is `origin` or what the suite reads.
+void check_files(const Request& request, const Suite& suite, const Input& origin) {
   if (!request.ompl_log.empty() && !is_plan(suite)) {
     throw SuiteError("--ompl-log: the suite predicts and plans nothing; expected a suite of kind 'plan'");
   }
+  std::vector<Output> outputs;
+  if (!request.json.empty()) outputs.push_back({"--json", request.json, true});
+  if (!request.csv.empty()) outputs.push_back({"--csv", request.csv});
+  if (!request.ompl_log.empty()) outputs.push_back({"--ompl-log", request.ompl_log});
+  if (outputs.empty()) return;
+  std::vector<Input> inputs{origin};
+  for (const std::filesystem::path& file : files_of(suite)) inputs.push_back({"what the suite reads", file});
+  check_outputs(outputs, inputs);
 }
 
 Outcome interrupted(const Request& request, const ResultFile& results, std::size_t jobs) {
@@ -60,19 +75,24 @@ Outcome interrupted(const Request& request, const ResultFile& results, std::size
   return Outcome::interrupted;
 }
 
+/// How a run is ended, and what is called when it begins.
+struct Control {
+  const CancelToken& cancel;
+  const std::function<void()>& begins;
+};
+
 /// Runs what is missing; nothing when it was interrupted.
-std::optional<Json> run(const Request& request, const Campaign& campaign, ResultFile& results,
-                        const CancelToken& cancel, int jobs) {
+std::optional<Json> run(const Request& request, const Campaign& campaign, ResultFile& results, const Control& control,
+                        int jobs) {
   if (results.size() > 0) std::cerr << "going on: " << results.size() << " rows are there already\n";
-  if (!run_jobs(campaign.jobs, {jobs, true, cancel}, results)) {
+  if (control.begins) control.begins();
+  if (!run_jobs(campaign.jobs, {jobs, true, control.cancel}, results)) {
     interrupted(request, results, campaign.jobs.size());
     return std::nullopt;
   }
   std::vector<std::string> ids;
   for (const Job& job : campaign.jobs) ids.push_back(job.id);
-  Json document = results.document(ids);
-  results.finish(document);
-  return document;
+  return results.document(ids);
 }
 
 std::string heading(const Suite& suite, const Json& document) {
@@ -86,7 +106,7 @@ std::string heading(const Suite& suite, const Json& document) {
          std::to_string(machine.at("cores").get<unsigned>()) + " cores\n\n";
 }
 
-Outcome run_suite(const Request& request, const CancelToken& cancel) {
+Outcome run_suite(const Request& request, const Control& control) {
   const Shard shard = shard_from_string(request.shard);
   Suite suite = load_suite(request.suite);
   apply(request.overrides, suite);
@@ -94,39 +114,38 @@ Outcome run_suite(const Request& request, const CancelToken& cancel) {
     std::cout << export_problems(suite, request.problems) << " queries in " << request.problems << "/problems.json\n";
     return Outcome::done;
   }
-  check_outputs(request, suite);
+  check_files(request, suite, {"--suite", suite_file(request.suite)});
   const int jobs = is_plan(suite) ? request.jobs : 1;  // predictions side by side would measure each other
   warn(suite, jobs);
-  Campaign campaign = is_plan(suite) ? plan_campaign(suite, cancel) : predict_campaign(suite, cancel);
+  Campaign campaign = is_plan(suite) ? plan_campaign(suite, control.cancel) : predict_campaign(suite, control.cancel);
   say_notes(campaign);
   Json header = header_of(suite, campaign);
   if (!shard.whole()) header["shard"] = {{"number", shard.number}, {"of", shard.of}};
   campaign.jobs = jobs_of(std::move(campaign.jobs), shard);
   ResultFile results(request.json, std::move(header));
-  const std::optional<Json> document = run(request, campaign, results, cancel, jobs);
+  const std::optional<Json> document = run(request, campaign, results, control, jobs);
   if (!document) return Outcome::interrupted;
-  write_outputs(request, suite, *document);
-  std::cout << heading(suite, *document) << (is_plan(suite) ? plan_report(*document) : predict_report(*document));
+  const std::string report = is_plan(suite) ? plan_report(*document) : predict_report(*document);
+  deliver(heading(suite, *document) + report, request, suite, results, *document);
   return Outcome::done;
 }
 
-Outcome run_replay(const Request& request, const CancelToken& cancel) {
+Outcome run_replay(const Request& request, const Control& control) {
   const Json before = read_result(request.replay);
   const Suite suite = replayed_suite(before, request.replay);
-  check_outputs(request, suite);
-  Campaign campaign =
-      is_plan(suite) ? plan_campaign(suite, cancel, replay_limits(before)) : predict_campaign(suite, cancel);
+  check_files(request, suite, {"--replay", request.replay == "-" ? "/dev/stdin" : request.replay});
+  Campaign campaign = is_plan(suite) ? plan_campaign(suite, control.cancel, replay_limits(before))
+                                     : predict_campaign(suite, control.cancel);
   say_notes(campaign);
   check_inputs(before, campaign.inputs, request.replay);
   keep_jobs_of(before, campaign.jobs);
   Json header = header_of(suite, campaign);
   header["replay_of"] = request.replay;
   ResultFile results(request.json, header);
-  const std::optional<Json> document = run(request, campaign, results, cancel, is_plan(suite) ? request.jobs : 1);
+  const std::optional<Json> document = run(request, campaign, results, control, is_plan(suite) ? request.jobs : 1);
   if (!document) return Outcome::interrupted;
-  write_outputs(request, suite, *document);
   const Comparison comparison = compare_replay(before, *document);
-  std::cout << comparison.text;
+  deliver(comparison.text, request, suite, results, *document);
   return comparison.same ? Outcome::done : Outcome::differs;
 }
 
@@ -142,8 +161,14 @@ std::string suite_list() {
   return text;
 }
 
-Outcome execute(const Request& request, const CancelToken& cancel) {
-  return request.replay.empty() ? run_suite(request, cancel) : run_replay(request, cancel);
+Outcome execute(const Request& request, const CancelToken& cancel, const std::function<void()>& begins) {
+  return request.replay.empty() ? run_suite(request, {cancel, begins}) : run_replay(request, {cancel, begins});
+}
+
+Outcome delivered(std::ostream& report, Outcome outcome) {
+  if (report.flush()) return outcome;
+  std::cerr << "error: standard output cannot be written: the report is lost\n";
+  return Outcome::failed;
 }
 
 }  // namespace lrrt::bench

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
+#include <iosfwd>
 #include <string>
 
 #include "lrrt/plan.hpp"
@@ -11,7 +13,7 @@ namespace lrrt::bench {
 /// What the command line asks for.
 struct Request {
   std::string suite;   ///< name or file; empty for --replay
-  std::string replay;  ///< result file to run again; empty for --suite
+  std::string replay;  ///< result file to run again, "-" for standard input; empty for --suite
   Overrides overrides{};
   int jobs = 1;               ///< runs at a time
   std::string shard = "1/1";  ///< the part of the suite to run
@@ -28,8 +30,14 @@ enum class Outcome { done = 0, failed = 2, differs = 3, interrupted = 130 };
 std::string suite_list();
 
 /// Runs a suite, prints its report and writes the files asked for; or runs a result file again and compares.
+///
+/// The report comes before the files, so that it is not lost where one of them cannot be written.
 /// @param cancel ends the run; with Request::json it can be gone on with.
+/// @param begins is called once everything is prepared, before the first job: from then on `cancel` is looked at.
 /// @throws lrrt::Error for bad input.
-Outcome execute(const Request& request, const CancelToken& cancel);
+Outcome execute(const Request& request, const CancelToken& cancel, const std::function<void()>& begins = nullptr);
+
+/// What a run came to once its report is out: a report that is lost, as on a full disk, is a failure.
+Outcome delivered(std::ostream& report, Outcome outcome);
 
 }  // namespace lrrt::bench

@@ -2,8 +2,10 @@
 #include "fields.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <sstream>
 
 namespace lrrt::bench {
@@ -28,6 +30,14 @@ std::string shown(const YAML::Node& node) {
 
 }  // namespace
 
+std::optional<std::uint64_t> seed_from_string(const std::string& text) {
+  std::uint64_t value = 0;
+  const char* const end = text.data() + text.size();
+  const std::from_chars_result read = std::from_chars(text.data(), end, value);
+  if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
+  return value;
+}
+
 Fields::Fields(const YAML::Node& node, std::string file, std::string place)
     : node_(node), file_(std::move(file)), place_(std::move(place)) {
   if (node_.IsMap()) return;
@@ -41,10 +51,14 @@ std::string Fields::where(const YAML::Node& node) const {
 }
 
 void Fields::allow_only(const std::vector<std::string>& known) const {
+  std::set<std::string> seen;
   for (const auto& entry : node_) {
     const auto key = entry.first.as<std::string>("");
-    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    throw SuiteError(where(entry.first) + "unknown key '" + path_of(key) + "': expected one of " + joined(known));
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      throw SuiteError(where(entry.first) + "unknown key '" + path_of(key) + "': expected one of " + joined(known));
+    }
+    if (!seen.insert(key).second)
+      throw SuiteError(where(entry.first) + path_of(key) + " is there twice: expected once");
   }
 }
 
@@ -76,6 +90,7 @@ std::string Fields::word(const std::string& key, const std::string& fallback,
 }
 
 bool Fields::flag(const std::string& key, bool fallback) const {
+  if (is_list(key)) refuse(key, "true or false");
   return flags(key, {fallback}).front();
 }
 
@@ -92,11 +107,10 @@ std::int64_t Fields::count(const std::string& key, std::int64_t fallback, const 
 
 std::uint64_t Fields::seed(const std::string& key, std::uint64_t fallback) const {
   if (!has(key)) return fallback;
-  std::uint64_t value = 0;
-  const bool fits = node_[key].IsScalar() && YAML::convert<std::uint64_t>::decode(node_[key], value) &&
-                    node_[key].Scalar().front() != '-';
-  if (!fits) refuse(key, "a whole number from 0 to 2^64 - 1");
-  return value;
+  const YAML::Node node = node_[key];
+  const std::optional<std::uint64_t> value = node.IsScalar() ? seed_from_string(node.Scalar()) : std::nullopt;
+  if (!value) refuse(key, "a whole number from 0 to 2^64 - 1");
+  return *value;
 }
 
 std::vector<YAML::Node> Fields::items(const std::string& key, const char* expected) const {

@@ -26,6 +26,9 @@ struct NumberRule {
   const char* expected;
 };
 
+/// A seed from its decimal digits, zeros before them allowed; nothing for any other text and above 2^64 - 1.
+std::optional<std::uint64_t> seed_from_string(const std::string& text);
+
 /// The fields of one YAML mapping, read with errors that name file, line, key, value and expectation.
 ///
 /// Every getter takes a fallback for a key that is missing; require() refuses that first.
@@ -35,7 +38,7 @@ class Fields {
   /// @throws SuiteError when the node is no mapping.
   Fields(const YAML::Node& node, std::string file, std::string place);
 
-  /// @throws SuiteError for a key that is not in the list; the text lists the known ones.
+  /// @throws SuiteError for a key that is not in the list, when the text lists the known ones, or is there twice.
   void allow_only(const std::vector<std::string>& known) const;
   /// @throws SuiteError when the key is missing.
   void require(const std::string& key, const std::string& expected) const;
@@ -48,6 +51,7 @@ class Fields {
   double number(const std::string& key, double fallback, const NumberRule& rule) const;
   /// A whole number.
   std::int64_t count(const std::string& key, std::int64_t fallback, const NumberRule& rule) const;
+  /// Decimal digits, as seed_from_string() reads them.
   std::uint64_t seed(const std::string& key, std::uint64_t fallback) const;
 
   /// One value or a list of them.

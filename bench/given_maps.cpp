@@ -37,11 +37,19 @@ bool is_map(const fs::path& path) {
 
 template <typename Iterator>
 std::vector<fs::path> maps_among(const fs::path& path) {
-  std::error_code ignored;
-  if (fs::is_regular_file(path, ignored)) return {path};
+  std::error_code error;
+  if (fs::is_regular_file(path, error)) return {path};
   std::vector<fs::path> result;
-  for (const auto& entry : Iterator(path, ignored)) {
-    if (is_map(entry.path())) result.push_back(entry.path());
+  fs::path last = path;  // the folder that cannot be read, where one cannot
+  Iterator entries(path, error);
+  while (!error && entries != Iterator()) {
+    last = entries->path();
+    if (is_map(last)) result.push_back(last);
+    entries.increment(error);
+  }
+  std::error_code ignored;
+  if (error && fs::exists(path, ignored)) {
+    throw SuiteError("maps: the folder " + last.string() + " cannot be read: " + error.message());
   }
   std::sort(result.begin(), result.end());
   if (result.empty()) throw SuiteError("maps: the folder " + path.string() + " holds no map or does not exist");

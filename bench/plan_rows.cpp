@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <limits>
+#include <numeric>
+#include <set>
 #include <sstream>
 
 #include "grid_search.hpp"
@@ -13,6 +15,8 @@
 namespace lrrt::bench {
 namespace {
 
+/// Every row is held in memory, and is a line of the report.
+constexpr std::size_t most_rows = 10'000;
 constexpr NumberRule counts_or_zero{0, 1e15, "a whole number from 0 on"};
 constexpr NumberRule factors{1, endless, "a factor from 1 on"};
 constexpr NumberRule details{0, 16384, "a side from 1 to 16384 pixels, or 0 to leave it to the model"};
@@ -138,48 +142,78 @@ PlanRow read_common(const Fields& fields, const PlanRow& fallback) {
   return row;
 }
 
-/// Every row once with each of the values. @param guided_only rows without guidance have but the first one.
-template <typename Value, typename Set>
-std::vector<PlanRow> with_each(const std::vector<PlanRow>& rows, const std::vector<Value>& values, bool guided_only,
-                               const Set& set) {
-  std::vector<PlanRow> result;
-  for (const PlanRow& row : rows) {
-    const std::size_t wanted = guided_only && !row.guided() ? 1 : values.size();
-    for (std::size_t i = 0; i < wanted; ++i) {
-      result.push_back(row);
-      set(result.back(), values[i]);
-    }
+/// The rows of one entry of `planners` while its lists are combined.
+class Combinations {
+ public:
+  Combinations(const Fields& fields, const PlanRow& common) : fields_(fields), rows_{common} {}
+
+  /// Every row once with each of the values of a key.
+  template <typename Value, typename Set>
+  void with_each(const char* key, const std::vector<Value>& values, const Set& set) {
+    combine(
+        key, values, [](const PlanRow&) { return true; }, set);
   }
-  return result;
-}
+
+  /// The same for guided rows; others have but the first of the values.
+  template <typename Value, typename Set>
+  void with_each_guided(const char* key, const std::vector<Value>& values, const Set& set) {
+    combine(
+        key, values, [](const PlanRow& row) { return row.guided(); }, set);
+  }
+
+  const std::vector<PlanRow>& rows() const { return rows_; }
+
+ private:
+  template <typename Value, typename Takes, typename Set>
+  void combine(const char* key, const std::vector<Value>& values, const Takes& takes_all, const Set& set) {
+    const auto wanted = [&](const PlanRow& row) { return takes_all(row) ? values.size() : std::size_t{1}; };
+    const std::size_t all = std::accumulate(rows_.begin(), rows_.end(), std::size_t{0},
+                                            [&](std::size_t sum, const PlanRow& row) { return sum + wanted(row); });
+    if (all > most_rows) {
+      fields_.refuse(key, "fewer values: with the entry's other lists they make " + std::to_string(all) +
+                              " rows, at most " + std::to_string(most_rows) + " are possible");
+    }
+    std::vector<PlanRow> result;
+    result.reserve(all);
+    for (const PlanRow& row : rows_) {
+      for (std::size_t i = 0; i < wanted(row); ++i) {
+        result.push_back(row);
+        set(result.back(), values[i]);
+      }
+    }
+    rows_ = std::move(result);
+  }
+
+  const Fields& fields_;
+  std::vector<PlanRow> rows_;
+};
 
 /// One row for every combination of the values in lists. An unguided row has no α, model and detail to combine.
 std::vector<PlanRow> expanded(const Fields& fields, const PlanRow& fallback) {
   const PlanRow common = read_common(fields, fallback);
   const PlanOptions& o = common.options;
-  std::vector<PlanRow> rows{common};
-  rows = with_each(rows, fields.texts("planner", {o.planner}), false,
-                   [](PlanRow& row, const std::string& planner) { row.options.planner = planner; });
-  rows =
-      with_each(rows, fields.texts("strategy", {common.strategy}), false, [&](PlanRow& row, const std::string& word) {
-        row.strategy = word;
-        row.options.strategy = checked_word(fields, "strategy", word, strategy_from_string);
-      });
-  rows = with_each(rows, fields.numbers("range", {o.range}, lengths), false,
-                   [](PlanRow& row, double range) { row.options.range = range; });
-  rows = with_each(rows, fields.texts("model", {common.model}), true,
-                   [](PlanRow& row, const std::string& model) { row.model = model; });
-  rows = with_each(rows, fields.counts("detail", {common.detail}, details), true,
-                   [](PlanRow& row, int detail) { row.detail = detail; });
-  return with_each(rows, fields.numbers("alpha", {o.alpha}, shares), true,
-                   [](PlanRow& row, double alpha) { row.options.alpha = alpha; });
+  Combinations all(fields, common);
+  all.with_each("planner", fields.texts("planner", {o.planner}),
+                [](PlanRow& row, const std::string& planner) { row.options.planner = planner; });
+  all.with_each("strategy", fields.texts("strategy", {common.strategy}), [&](PlanRow& row, const std::string& word) {
+    row.strategy = word;
+    row.options.strategy = checked_word(fields, "strategy", word, strategy_from_string);
+  });
+  all.with_each("range", fields.numbers("range", {o.range}, lengths),
+                [](PlanRow& row, double range) { row.options.range = range; });
+  all.with_each_guided("model", fields.texts("model", {common.model}),
+                       [](PlanRow& row, const std::string& model) { row.model = model; });
+  all.with_each_guided("detail", fields.counts("detail", {common.detail}, details),
+                       [](PlanRow& row, int detail) { row.detail = detail; });
+  all.with_each_guided("alpha", fields.numbers("alpha", {o.alpha}, shares),
+                       [](PlanRow& row, double alpha) { row.options.alpha = alpha; });
+  return all.rows();
 }
 
 /// Rows are compared with rows that there are.
-void check_baselines(const Fields& fields, const std::vector<PlanRow>& rows) {
+void check_baselines(const Fields& fields, const std::vector<PlanRow>& rows, const std::set<std::string>& names) {
   for (const PlanRow& row : rows) {
-    const auto same = [&](const PlanRow& other) { return other.name == row.baseline; };
-    if (row.baseline.empty() || std::any_of(rows.begin(), rows.end(), same)) continue;
+    if (row.baseline.empty() || names.count(row.baseline) != 0) continue;
     fields.refuse_all("the baseline '" + row.baseline + "' of row '" + row.name +
                       "' is no row: expected the name of one");
   }
@@ -203,6 +237,7 @@ std::vector<PlanRow> read_plan_rows(const Fields& fields, const PlanSuite& robot
   PlanRow fallback = expanded(fields, {}).front();
   fallback.baseline.clear();  // at the top of the file it is the suite's
   std::vector<PlanRow> rows;
+  std::set<std::string> names;
   std::vector<std::string> known = row_keys();
   known.insert(known.end(), {"name", "baseline"});
   for (const Fields& child : fields.children("planners")) {
@@ -210,12 +245,16 @@ std::vector<PlanRow> read_plan_rows(const Fields& fields, const PlanSuite& robot
     for (PlanRow& row : expanded(child, fallback)) {
       row.name = name_of(child, row);
       check(child, row, robot);
-      const bool taken = std::any_of(rows.begin(), rows.end(), [&](const PlanRow& r) { return r.name == row.name; });
-      if (taken) child.refuse_all("a second row is called '" + row.name + "': expected a 'name' of its own");
+      if (!names.insert(row.name).second) {
+        child.refuse_all("a second row is called '" + row.name + "': expected a 'name' of its own");
+      }
       rows.push_back(std::move(row));
     }
+    if (rows.size() > most_rows) {
+      fields.refuse_all("'planners' has too many: expected " + std::to_string(most_rows) + " rows at most");
+    }
   }
-  check_baselines(fields, rows);
+  check_baselines(fields, rows, names);
   return rows;
 }
 

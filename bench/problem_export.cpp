@@ -5,10 +5,12 @@
 #include <map>
 
 #include "lrrt/io/read_map.hpp"
+#include "outputs.hpp"
 #include "problems.hpp"
 #include "reference.hpp"
 #include "result_file.hpp"
 #include "robot.hpp"
+#include "suite_files.hpp"
 
 namespace lrrt::bench {
 namespace {
@@ -45,16 +47,28 @@ Json problem_json(const Problem& problem, const OccupancyMap& map, const std::st
   return json;
 }
 
+/// Makes the folder, where none of the suite's own maps may lie: pictures are called alike.
+void make_folder(const std::filesystem::path& folder, const Suite& suite) {
+  const auto refuse = [&](const std::string& problem) {
+    throw ResultError("--problems " + folder.string() + ": " + problem);
+  };
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!std::filesystem::is_directory(folder, error) || !can_make(folder / "problems.json.new")) {
+    refuse("cannot be made; expected a folder that may be written");
+  }
+  for (const std::filesystem::path& file : files_of_maps(suite)) {
+    if (!std::filesystem::equivalent(std::filesystem::absolute(file).parent_path(), folder, error)) continue;
+    refuse("holds " + file.string() + ", which the suite reads; expected a folder of its own");
+  }
+}
+
 }  // namespace
 
 std::size_t export_problems(const Suite& suite, const std::filesystem::path& folder) {
   const auto* body = std::get_if<PlanSuite>(&suite.body);
   if (body == nullptr) throw SuiteError("--problems: the suite predicts and plans nothing; expected 'kind: plan'");
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder, error)) {
-    throw ResultError("--problems " + folder.string() + ": cannot be made; expected a folder that may be written");
-  }
+  make_folder(folder, suite);
   Json document = {{"suite", to_json(suite)}, {"problems", Json::array()}};
   std::map<std::string, std::string> pictures;  // by map
   for (const Problem& problem : make_problems(suite)) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "given_maps.hpp"
@@ -91,8 +92,15 @@ void add_problems(const MapSource& source, const NamedMap& named, const Suite& s
 
 std::vector<Problem> make_problems(const Suite& suite) {
   std::vector<Problem> problems;
+  std::set<std::string> names;
   for (const MapSource& source : std::get<PlanSuite>(suite.body).maps) {
-    for (const NamedMap& named : maps_of(source, suite)) add_problems(source, named, suite, problems);
+    for (const NamedMap& named : maps_of(source, suite)) {
+      if (!names.insert(named.name).second) {
+        throw SuiteError("maps: a second map is called '" + named.name +
+                         "': expected a 'name' of its own for the entry '" + source.name + "'");
+      }
+      add_problems(source, named, suite, problems);
+    }
   }
   return problems;
 }

@@ -155,6 +155,8 @@ std::vector<Query> scenario_queries(const QuerySource& source, const NamedMap& n
   if (source.path.empty()) path = named.file.string() + ".scen";
   const std::vector<Scenario> scenarios = read_scenarios(path);
   const std::size_t all = scenarios.size();
+  if (all == 0)
+    throw SuiteError(path.string() + ": holds no queries: expected at least one problem of '" + named.name + "'");
   const std::size_t wanted = source.count == 0 ? all : std::min(all, static_cast<std::size_t>(source.count));
   Random random(source.seed);
   std::vector<Query> queries;

@@ -2,10 +2,13 @@
 #include "result_file.hpp"
 
 #include <algorithm>
-#include <cstdint>
-#include <limits>
+#include <array>
+#include <iostream>
 #include <system_error>
 #include <utility>
+
+#include "outputs.hpp"
+#include "row_check.hpp"
 
 namespace lrrt::bench {
 namespace {
@@ -13,15 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* format = "lrrt_bench 1";
-
-fs::path with_suffix(fs::path path, const char* suffix) {
-  path += suffix;
-  return path;
-}
-
-[[noreturn]] void cannot_write(const fs::path& path) {
-  throw ResultError(path.string() + ": cannot be written; expected a folder that exists, may be written and has room");
-}
+constexpr std::size_t longest_result = std::size_t{1} << 30;  // bytes
 
 /// JSON, or a discarded value for what is none, such as the unfinished line of a run that was killed. Nesting that no
 /// result has is none either: what works on JSON afterwards recurses.
@@ -37,21 +32,6 @@ Json parsed(Input&& input) {
   return too_deep ? Json(Json::value_t::discarded) : json;
 }
 
-bool is_count(const Json& row, const char* key) {
-  const auto found = row.find(key);
-  return found != row.end() && found->is_number_integer() && *found >= 0 &&
-         *found <= std::numeric_limits<std::int64_t>::max();
-}
-
-bool has_id(const Json& row) {
-  return row.is_object() && row.value("id", Json()).is_string();
-}
-
-bool is_row(const Json& row) {
-  const bool known = has_id(row) && row.value("ended_by_clock", Json(false)).is_boolean();
-  return known && (is_count(row, "area") || (is_count(row, "iterations") && is_count(row, "nodes")));
-}
-
 /// What a replay reads of a document, its rows left out, is what this program writes.
 bool is_head(const Json& json) {
   const Json inputs = json.value("inputs", Json::object());
@@ -64,6 +44,18 @@ bool same_but_for_time(Json a, Json b) {
   a.erase("started");
   b.erase("started");
   return a == b;
+}
+
+/// All of a stream, up to a limit: what comes through a pipe may have no end.
+std::string text_of(std::istream& stream, const std::string& name) {
+  std::string text;
+  std::array<char, 1 << 16> block{};
+  while (stream.read(block.data(), block.size()) || stream.gcount() > 0) {
+    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+    if (text.size() <= longest_result) continue;
+    throw ResultError(name + ": too large; expected a result of at most " + std::to_string(longest_result) + " bytes");
+  }
+  return text;
 }
 
 /// The document as text: indented, but every row on one line.
@@ -87,13 +79,15 @@ ResultFile::ResultFile(fs::path path, Json header) : path_(std::move(path)), hea
   std::error_code ignored;
   if (fs::is_regular_file(part(), ignored)) resume();
   // Written anew rather than appended to: a run that was killed may have left half a line.
-  stream_.open(with_suffix(part(), ".new"), std::ios::trunc);
+  const fs::path fresh = with_suffix(part(), ".new");
+  stream_.open(fresh, std::ios::trunc);
   stream_ << dumped(header_) << '\n';
   for (const auto& [id, row] : rows_) stream_ << dumped(row) << '\n';
-  if (!stream_.flush()) cannot_write(part());
   std::error_code error;
-  fs::rename(with_suffix(part(), ".new"), part(), error);
-  if (error) cannot_write(part());
+  if (stream_.flush()) fs::rename(fresh, part(), error);
+  if (stream_ && !error) return;
+  drop(fresh);
+  cannot_write(part());
 }
 
 fs::path ResultFile::part() const {
@@ -111,9 +105,10 @@ void ResultFile::resume() {
                       "go on, or remove the file to begin anew");
   }
   header_ = std::move(begun);
+  const RowCheck is_whole(header_);
   while (std::getline(file, line)) {
     const Json row = parsed(line);
-    if (has_id(row)) rows_[row.at("id").get<std::string>()] = row;
+    if (is_whole(row)) rows_[row.at("id").get<std::string>()] = row;
   }
 }
 
@@ -153,34 +148,30 @@ void ResultFile::finish(const Json& document) {
 }
 
 Json read_result(const fs::path& path) {
+  if (path == "-" || path == "/dev/stdin") return read_result(std::cin, "standard input");
   std::error_code ignored;
   std::ifstream file;
   if (fs::is_regular_file(path, ignored)) file.open(path);
-  if (!file.is_open()) throw ResultError(path.string() + ": cannot be read; expected a file that --json wrote");
-  Json json = parsed(file);
+  if (!file.is_open()) {
+    throw ResultError(path.string() + ": cannot be read; expected a file that --json wrote, or - for standard input");
+  }
+  return read_result(file, path.string());
+}
+
+Json read_result(std::istream& stream, const std::string& name) {
+  Json json = parsed(text_of(stream, name));
   const bool ours = json.is_object() && json.value("format", Json()) == format && is_head(json) &&
                     json.value("rows", Json()).is_array();
   if (!ours) {
-    throw ResultError(path.string() + ": is no result file; expected one that --json wrote ('format': '" + format +
+    throw ResultError(name + ": is no result file; expected one that --json wrote ('format': '" + format +
                       "', a suite and rows)");
   }
   for (const Json& row : json.at("rows")) {
     if (is_row(row)) continue;
-    throw ResultError(path.string() + ": row " + dumped(row).substr(0, 60) +
+    throw ResultError(name + ": row " + dumped(row).substr(0, 60) +
                       " is none that --json wrote: expected an 'id', and either 'area' or 'iterations' and 'nodes'");
   }
   return json;
-}
-
-void write_file(const fs::path& path, const std::string& text) {
-  const fs::path fresh = with_suffix(path, ".new");
-  std::ofstream file(fresh, std::ios::binary | std::ios::trunc);
-  file << text;
-  file.close();
-  if (!file) cannot_write(path);
-  std::error_code error;
-  fs::rename(fresh, path, error);
-  if (error) cannot_write(path);
 }
 
 }  // namespace lrrt::bench

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iosfwd>
 #include <map>
 #include <mutex>
 #include <string>
@@ -49,10 +50,11 @@ class ResultFile {
   mutable std::mutex mutex_;
 };
 
-/// Reads a finished result file. @throws ResultError when it is missing or is none.
+/// Reads a finished result file. @param path "-" or "/dev/stdin" for standard input, through a pipe or not.
+/// @throws ResultError when it is missing, too large or none.
 Json read_result(const std::filesystem::path& path);
 
-/// Writes a file so that it appears complete or not at all. @throws ResultError when it cannot be written.
-void write_file(const std::filesystem::path& path, const std::string& text);
+/// The same from a stream. @param name of it in errors.
+Json read_result(std::istream& stream, const std::string& name);
 
 }  // namespace lrrt::bench

@@ -16,6 +16,23 @@ constexpr NumberRule threads_rule{1, 1024, "a number of threads from 1 to 1024"}
 constexpr NumberRule batches{1, 4096, "a number of predictions from 1 to 4096"};
 constexpr std::uintmax_t longest_suite = 1 << 20;  // bytes
 
+/// Settings that lists combine to are held in memory, and so is all of a call.
+void check_settings(const Fields& fields, const PredictSuite& suite) {
+  constexpr std::uint64_t most_settings = 10'000;
+  constexpr std::int64_t most_pixels = std::int64_t{1} << 28;
+  std::uint64_t settings = 1;
+  for (const std::size_t values :
+       {suite.models.size(), suite.sizes.size(), suite.threads.size(), suite.batch.size(), suite.spinning.size()}) {
+    settings *= values;
+    if (settings <= most_settings) continue;
+    fields.refuse_all("the lists 'models', 'sizes', 'threads', 'batch' and 'spinning' combine to more than " +
+                      std::to_string(most_settings) + " settings: expected shorter lists");
+  }
+  const std::int64_t side = *std::max_element(suite.sizes.begin(), suite.sizes.end());
+  if (*std::max_element(suite.batch.begin(), suite.batch.end()) <= most_pixels / (side * side)) return;
+  fields.refuse("batch", "calls of at most " + std::to_string(most_pixels) + " pixels, 'batch' times 'sizes' squared");
+}
+
 PredictSuite read_predict_suite(const Fields& fields) {
   fields.allow_only(
       {"kind", "title", "models", "sizes", "threads", "batch", "spinning", "level", "mazes", "runs", "seed"});
@@ -29,6 +46,7 @@ PredictSuite read_predict_suite(const Fields& fields) {
   suite.mazes = static_cast<int>(fields.count("mazes", suite.mazes, counts));
   suite.runs = static_cast<int>(fields.count("runs", suite.runs, counts));
   suite.seed = fields.seed("seed", suite.seed);
+  check_settings(fields, suite);
   if (suite.level % 2 == 0) fields.refuse("level", levels.expected);
   if (suite.level > *std::min_element(suite.sizes.begin(), suite.sizes.end())) {
     fields.refuse("level", "no more blocks than the smallest of sizes has pixels");
@@ -39,7 +57,12 @@ PredictSuite read_predict_suite(const Fields& fields) {
 
 YAML::Node parsed(const std::string& text, const std::string& file) {
   try {
-    return YAML::Load(text);
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() > 1) {
+      throw SuiteError(file + ": holds " + std::to_string(documents.size()) +
+                       " documents with '---' between them: expected one suite a file");
+    }
+    return documents.empty() ? YAML::Node() : documents.front();
   } catch (const YAML::Exception& error) {
     throw SuiteError(file + ":" + std::to_string(error.mark.line + 1) + ": not YAML: " + error.msg);
   }
@@ -57,16 +80,16 @@ fs::path suites_folder() {
   return fs::is_directory(installed, ignored) ? installed : fs::path(LRRT_BENCH_SUITES);
 }
 
-fs::path find_suite(const std::string& name) {
-  const fs::path path = is_yaml(name) ? fs::path(name) : suites_folder() / (name + ".yaml");
+}  // namespace
+
+fs::path suite_file(const std::string& name) {
+  fs::path path = is_yaml(name) ? fs::path(name) : suites_folder() / (name + ".yaml");
   std::error_code ignored;
   if (fs::is_regular_file(path, ignored)) return path;
   std::string known;
   for (const std::string& suite : shipped_suites()) known += (known.empty() ? "" : ", ") + suite;
   throw SuiteError("suite '" + name + "' does not exist: expected one of " + known + ", or a file that ends in .yaml");
 }
-
-}  // namespace
 
 Suite parse_suite(const std::string& text, const std::string& file, const fs::path& folder) {
   const Fields fields(parsed(text, file), file, "");
@@ -83,7 +106,7 @@ Suite parse_suite(const std::string& text, const std::string& file, const fs::pa
 }
 
 Suite load_suite(const std::string& name) {
-  const fs::path path = find_suite(name);
+  const fs::path path = suite_file(name);
   std::error_code ignored;
   if (fs::file_size(path, ignored) > longest_suite) {
     throw SuiteError(path.string() + ": too large; expected a suite of at most " + std::to_string(longest_suite) +
@@ -178,6 +201,7 @@ void take_own_maps(const std::vector<std::string>& paths, PlanSuite& suite) {
 
 /// The model that a user names, seen from the suite's folder, as the suite would name it.
 std::string own_model(const std::string& model, const fs::path& folder) {
+  if (model.empty()) throw SuiteError("--models '': expected a model file or a pattern");
   if (model == "default") return model;
   return fs::absolute(model).lexically_normal().lexically_proximate(fs::absolute(folder).lexically_normal()).string();
 }

@@ -141,6 +141,9 @@ Suite parse_suite(const std::string& text, const std::string& file, const std::f
 /// @param name of a suite that ships, or a file. @throws SuiteError as parse_suite(), and when there is no such file.
 Suite load_suite(const std::string& name);
 
+/// Where a suite lies. @param name as for load_suite(). @throws SuiteError when there is no such file.
+std::filesystem::path suite_file(const std::string& name);
+
 /// The suites that ship, by name.
 std::vector<std::string> shipped_suites();
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "fields.hpp"
 #include "given_maps.hpp"
@@ -29,6 +32,27 @@ TEST(MapsIn, AFolderGivesItsMapsAndAFileItself) {
   EXPECT_EQ(maps_below(drawn_maps).size(), 24U);
   EXPECT_THROW(maps_in(drawn_maps), SuiteError);
   EXPECT_THROW(maps_below("/nowhere/at/all"), SuiteError);
+}
+
+TEST(MapsIn, AFolderThatCannotBeReadIsNamed) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::temp_directory_path() / ("lrrt_maps_" + std::to_string(getpid()));
+  fs::create_directories(folder / "locked");
+  fs::permissions(folder / "locked", fs::perms::none);
+  const uid_t user = geteuid();
+  ASSERT_EQ(user == 0 ? seteuid(65534) : 0, 0);  // root may read everything
+  for (const fs::path& asked : {folder, folder / "locked"}) {
+    try {
+      maps_below(asked);
+      ADD_FAILURE() << "expected a SuiteError";
+    } catch (const SuiteError& error) {
+      EXPECT_NE(std::string(error.what()).find((folder / "locked").string() + " cannot be read"), std::string::npos)
+          << error.what();
+    }
+  }
+  ASSERT_EQ(seteuid(user), 0);
+  fs::permissions(folder / "locked", fs::perms::owner_all);
+  fs::remove_all(folder);
 }
 
 TEST(Resized, EveryPixelIsTheNearestOne) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <fstream>
+#include <iostream>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -15,6 +16,7 @@
 #include "lrrt/io/read_map.hpp"
 #include "lrrt/sampling/random.hpp"
 #include "ompl_log.hpp"
+#include "outputs.hpp"
 #include "problem_export.hpp"
 #include "problems.hpp"
 #include "replay.hpp"
@@ -135,7 +137,8 @@ TEST_F(Results, WhatIsNoResultIsRefused) {
   for (const Json& row : {Json(), Json(5), Json{{"id", 5}}, Json{{"id", "a"}}, Json{{"id", "a"}, {"area", -1}},
                           Json{{"id", "a"}, {"iterations", 1}}, Json{{"id", "a"}, {"iterations", 1.5}, {"nodes", 1}},
                           Json{{"id", "a"}, {"iterations", 1}, {"nodes", 18446744073709551615ULL}},
-                          Json{{"id", "a"}, {"area", 1}, {"ended_by_clock", 1}}}) {
+                          Json{{"id", "a"}, {"area", 1}, {"ended_by_clock", 1}},
+                          Json{{"id", "a"}, {"area", 1}, {"repeatable", Json::array()}}}) {
     with("/rows/0", row);
   }
   for (const Json& document : bad) {
@@ -154,10 +157,71 @@ TEST_F(Results, WhatIsNoResultIsRefused) {
 
 TEST_F(Results, ABrokenRowOfAPartIsMadeAgain) {
   { const ResultFile results(file(), {{"suite", 1}}); }
-  std::ofstream(part(), std::ios::app) << "{\"id\": 5}\n[]\n{\"id\": \"a\"}\n" << std::string(100000, '[') << '\n';
+  std::ofstream(part(), std::ios::app) << "{\"id\": 5}\n[]\n{\"id\": \"b\"}\n{\"id\": \"a\", \"area\": 1}\n"
+                                       << std::string(100000, '[') << '\n';
   const ResultFile results(file(), {{"suite", 1}});
   EXPECT_EQ(results.size(), 1U);
   EXPECT_TRUE(results.has("a"));
+}
+
+TEST_F(Results, ARowOfAPartThatNoReportCouldReadIsMadeAgain) {
+  const std::string predictions =
+      "{kind: predict, models: models/sizes.onnx, sizes: 16, threads: 1, batch: 1, level: 5, runs: 2}";
+  for (const Json& document :
+       {document_of(parse_suite(unguided, "my.yaml", ".")),
+        predictions_of(parse_suite(predictions, "my.yaml", LRRT_BENCH_SUITES "/../../tests/data"))}) {
+    Json header = document;
+    header.erase("format");
+    header.erase("rows");
+    const auto kept = [&](const Json& row) {
+      std::ofstream(part()) << header.dump() << '\n' << row.dump() << '\n';
+      return ResultFile(file(), header).size();
+    };
+    for (const Json& row : document.at("rows")) EXPECT_EQ(kept(row), 1U) << row;
+    const bool plans = document.at("suite").at("kind") == "plan";
+    const Json row = document.at("rows").at(0);
+    Json one = document;
+    one["rows"] = {row};
+    for (const auto& [key, value] : row.items()) {
+      for (const Json& damage : {Json("yes"), Json(-1.5), Json::array(), Json::object(), Json({{0}})}) {
+        Json broken = one;
+        broken["rows"][0][key] = damage;
+        if (kept(broken.at("rows").at(0)) == 0U) continue;
+        EXPECT_NO_THROW(plans ? plan_report(broken) + plan_csv(broken) + ompl_log(broken)
+                              : predict_report(broken) + predict_csv(broken))
+            << key << ' ' << damage;
+      }
+      Json without = one;
+      without["rows"][0].erase(key);
+      if (kept(without.at("rows").at(0)) == 0U) continue;
+      EXPECT_NO_THROW(plans ? plan_report(without) + plan_csv(without) + ompl_log(without)
+                            : predict_report(without) + predict_csv(without))
+          << key;
+    }
+    if (!plans) continue;
+    for (const char* key : {"group", "planner", "solved", "times_ms"}) {
+      Json broken = row;
+      broken.erase(key);
+      EXPECT_EQ(kept(broken), 0U) << key;
+    }
+  }
+}
+
+TEST_F(Results, AResultIsReadFromAStream) {
+  const Json document = document_of(parse_suite(unguided, "my.yaml", "."));
+  std::stringstream pipe;
+  pipe << document.dump();
+  EXPECT_EQ(read_result(pipe, "standard input"), document);
+  std::istringstream empty;
+  EXPECT_THROW(read_result(empty, "standard input"), ResultError);
+  std::istringstream given(document.dump());
+  std::streambuf* const before = std::cin.rdbuf(given.rdbuf());
+  EXPECT_EQ(read_result("-"), document);
+  given.seekg(0);
+  std::cin.clear();
+  EXPECT_EQ(read_result("/dev/stdin"), document);
+  std::cin.rdbuf(before);
+  std::cin.clear();
 }
 
 TEST_F(Results, AJobsErrorComesThroughAndKeepsTheRest) {

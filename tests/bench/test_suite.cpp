@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <string>
+
+#include <unistd.h>
 
 #include "arguments.hpp"
 #include "campaign.hpp"
@@ -109,6 +113,12 @@ TEST(Arguments, AreReadOrAnswered) {
   EXPECT_EQ(run.request.overrides.runs, 3);
   EXPECT_EQ(run.request.overrides.maps, (std::vector<std::string>{"a", "b"}));
   EXPECT_EQ(run.request.shard, "2/3");
+  const Arguments zeros = read({"--suite", "smoke", "--runs", "010", "--jobs", "08", "--seed", "010"});
+  EXPECT_EQ(zeros.request.overrides.runs, 10);
+  EXPECT_EQ(zeros.request.overrides.seed, 10U);
+  EXPECT_EQ(zeros.request.jobs, 8);
+  EXPECT_EQ(read({"--suite", "smoke", "--seed", "18446744073709551615"}).request.overrides.seed,
+            std::numeric_limits<std::uint64_t>::max());
   EXPECT_TRUE(read({"--list"}).list);
   EXPECT_EQ(read({"--help"}).exit, Outcome::done);
   EXPECT_NE(read({"--help"}).out.find("--suite"), std::string::npos);
@@ -119,6 +129,19 @@ TEST(Arguments, AreReadOrAnswered) {
                                                 {"--seed", "x"},
                                                 {"--jobs", "nan"},
                                                 {"--suite", "a", "--replay", "b"},
+                                                {"--suite", "a", "--seed", "18446744073709551616"},
+                                                {"--suite", "a", "--seed", "99999999999999999999"},
+                                                {"--suite", "a", "--seed", "0x10"},
+                                                {"--suite", "a", "--seed", ""},
+                                                {"--suite", ""},
+                                                {"--replay", ""},
+                                                {"--suite", "a", "--json", ""},
+                                                {"--suite", "a", "--json="},
+                                                {"--suite", "a", "--csv", ""},
+                                                {"--suite", "a", "--ompl-log", ""},
+                                                {"--suite", "a", "--problems", ""},
+                                                {"--suite", "a", "--models", ""},
+                                                {"--suite", "a", "--problems", "b", "--csv", "c"},
                                                 {"--what"},
                                                 {"a"}}) {
     const Arguments answer = read(wrong);
@@ -133,6 +156,77 @@ TEST(Suite, JsonReadsBackTheSame) {
     const Json json = to_json(suite);
     EXPECT_EQ(to_json(parse_suite(dumped(json, 1), name, suite.folder)), json) << name;
   }
+}
+
+/// "[0.001, 0.002, …]" or "[1, 2, …]": so many different values.
+std::string list_of(int count, const char* before) {
+  std::string text = "[";
+  for (int i = 0; i < count; ++i) text += (i == 0 ? "" : ", ") + std::string(before) + std::to_string(1000 + i);
+  return text + "]";
+}
+
+TEST(Suite, ListsThatCombineToTooManyRowsAreRefused) {
+  const std::string alphas = "alpha: " + list_of(200, "0.");
+  const auto rows = [&](int ranges) { return with("alpha: [0.5, 0.8]", alphas + ", range: " + list_of(ranges, "")); };
+  const std::string error = error_of(rows(200));
+  EXPECT_NE(error.find("my.yaml:10: planners[1].alpha is [0.1000"), std::string::npos) << error;
+  EXPECT_NE(error.find("40000 rows, at most 10000"), std::string::npos) << error;
+  EXPECT_NE(error_of(rows(50) + "  - {name: more, planner: RRT, strategy: uniform}\n").find("10000 rows at most"),
+            std::string::npos);
+  EXPECT_EQ(error_of(with("alpha: [0.5, 0.8]", alphas + ", range: " + list_of(20, ""))), "no error");
+  EXPECT_NE(
+      error_of("{kind: predict, sizes: " + list_of(200, "") + ", batch: " + list_of(100, "") + "}").find("settings"),
+      std::string::npos);
+  const std::string batch = error_of("{kind: predict, sizes: [64, 4096], batch: [1, 4096], mazes: 1}");
+  EXPECT_NE(batch.find("my.yaml:1: batch is [1, 4096]: expected calls of at most"), std::string::npos) << batch;
+  EXPECT_EQ(error_of("{kind: predict, sizes: 256, batch: 4096}"), "no error");
+}
+
+TEST(Suite, SeedsAreDecimal) {
+  const auto seed = [](const std::string& text) {
+    return std::get<PlanSuite>(parse_suite(std::string(small) + "seed: " + text + "\n", "my.yaml", ".").body).seed;
+  };
+  EXPECT_EQ(seed("010"), 10U);
+  EXPECT_EQ(seed("18446744073709551615"), std::numeric_limits<std::uint64_t>::max());
+  for (const char* wrong : {"18446744073709551616", "0x10", "0o10", "-1", "1e3", "1.0", "[1]", "''"}) {
+    EXPECT_NE(error_of(std::string(small) + "seed: " + wrong + "\n").find("seed is "), std::string::npos) << wrong;
+  }
+}
+
+TEST(Suite, WhatWouldBeReadInPartIsRefused) {
+  EXPECT_NE(error_of(std::string(small) + "runs: 3\nruns: 4\n").find("my.yaml:12: runs is there twice"),
+            std::string::npos);
+  EXPECT_NE(error_of(with("level: 9", "level: 9, level: 7")).find("maps[0].level is there twice"), std::string::npos);
+  EXPECT_NE(error_of(std::string(small) + "---\nkind: predict\n").find("holds 2 documents"), std::string::npos);
+  EXPECT_EQ(error_of("---" + std::string(small) + "...\n"), "no error");
+  EXPECT_NE(error_of(std::string(small) + "reference: [true, false]\n").find("reference is [true, false]"),
+            std::string::npos);
+}
+
+/// What make_problems() says of a suite of the maps in a folder.
+std::string problems_error(const std::string& maps, const std::filesystem::path& folder) {
+  try {
+    make_problems(parse_suite(
+        "{kind: plan, maps: " + maps + ", queries: [{kind: farthest}], planners: [{planner: RRT, strategy: uniform}]}",
+        "my.yaml", folder));
+  } catch (const SuiteError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Problems, MapsOfOneNameAndListsWithoutQueriesAreRefused) {
+  const std::string maps = LRRT_BENCH_SUITES "/../maps";
+  const std::string twice =
+      problems_error("[{kind: folder, path: rooms, name: a}, {kind: file, path: city/0.png, name: a/0.png}]", maps);
+  EXPECT_NE(twice.find("a second map is called 'a/0.png'"), std::string::npos) << twice;
+  const std::filesystem::path empty =
+      std::filesystem::temp_directory_path() / ("lrrt_" + std::to_string(getpid()) + ".scen");
+  std::ofstream(empty) << "version 1\n";
+  const std::string none =
+      problems_error("[{kind: file, path: rooms/0.png, queries: [{kind: scen, path: " + empty.string() + "}]}]", maps);
+  EXPECT_NE(none.find("holds no queries"), std::string::npos) << none;
+  std::filesystem::remove(empty);
 }
 
 TEST(Suite, OverridesReachEveryRow) {
@@ -185,6 +279,8 @@ TEST(Suite, OwnModelsTakeThePlaceOfTheSuites) {
   EXPECT_EQ(models, (std::vector<std::string>{"../../tests/data/models/green.*", "default"}));
   Suite plans = load_suite("smoke");
   EXPECT_THROW(apply(changes, plans), SuiteError);
+  changes.models = {""};
+  EXPECT_THROW(apply(changes, suite), SuiteError);
 }
 
 #ifdef LRRT_WITH_TORCH
