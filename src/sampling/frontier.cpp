@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -79,7 +80,8 @@ FrontierStrategy::FrontierStrategy(std::shared_ptr<const OccupancyMap> map, cons
   if (whole == Geodesic::unreached) {
     throw RequestError("the promising region does not join start and goal: bridge its gaps first");
   }
-  const auto most_detour = static_cast<std::int32_t>(detour_share * whole + detour_steps * step_ / Geodesic::unit);
+  const double detour = detour_share * whole + detour_steps * step_ / Geodesic::unit;
+  const auto most_detour = static_cast<std::int32_t>(std::min(detour, 0.5 * std::numeric_limits<std::int32_t>::max()));
   fronts_[0] = make_front(to_goal, to_start, start, most_detour);
   if (trees_ == 2) {
     fronts_[1] = make_front(to_start, to_goal, goal, most_detour);

@@ -58,6 +58,17 @@ TEST(Frontier, DrawsJustAheadOfTheTreeInTheRegion) {
   }
 }
 
+TEST(Frontier, StepsMayBeLongerThanAnyMap) {
+  const auto map = corridor();
+  Random random(2);
+  for (const double step : {1e9, 1e300, std::numeric_limits<double>::max()}) {
+    FrontierStrategy frontier(map, whole_of(*map), start, goal, {step});
+    for (int i = 0; i < 100; ++i) ASSERT_TRUE(map->is_free(OccupancyMap::pixel_of(frontier.draw(random))));
+    frontier.connected({0.5, 1.5}, {30.5, 1.5});
+    for (int i = 0; i < 100; ++i) ASSERT_TRUE(map->is_free(OccupancyMap::pixel_of(frontier.draw(random))));
+  }
+}
+
 TEST(Frontier, DeadEndsOfTheRegionAreLeftOut) {
   const auto map = corridor();
   FrontierStrategy frontier(map, whole_of(*map), start, goal, {3.0});
