@@ -11,7 +11,6 @@
 #include "families.hpp"
 #include "footprint_oracle.hpp"
 #include "lrrt/ompl/planners.hpp"
-#include "lrrt/predict/grid_predictors.hpp"
 
 namespace lrrt::property {
 namespace {
@@ -31,6 +30,21 @@ std::string random_planner(Motion motion, Random& random) {
     if (motion != Motion::dubins || keeps_direction(name)) return name;
   }
 }
+
+/// Marks what it is told to: GivenRegion would refuse what is no probability, but a user's own predictor may return it.
+class Marked final : public RegionPredictor {
+ public:
+  explicit Marked(std::vector<float> probability) : probability_(std::move(probability)) {}
+
+  Prediction predict(const OccupancyMap& map, const Eigen::Vector2d& start,
+                     const Eigen::Vector2d& goal) const override {
+    const auto pixel = [&](const Eigen::Vector2d& point) { return OccupancyMap::pixel_of(map.to_pixel(point)); };
+    return {PromisingRegion(map, probability_, pixel(start), pixel(goal)), {}};
+  }
+
+ private:
+  std::vector<float> probability_;
+};
 
 /// An outline that holds its reference point: convex or concave.
 Polygon random_outline(double size, Random& random) {
@@ -178,7 +192,7 @@ void Query::make_region(Random& random) {
   for (float& p : probability) {
     if (region_ == "inverted") p = 1.0F - p;
   }
-  predictor_ = std::make_shared<GivenRegion>(map_->width(), map_->height(), std::move(probability));
+  predictor_ = std::make_shared<Marked>(std::move(probability));
 }
 
 std::string Query::words() const {
