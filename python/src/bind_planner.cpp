@@ -212,7 +212,7 @@ void bind_result(py::module_& module) {
       .def_readonly("reused", &PlanResult::reused,
                     "Share of the path's cost that Session.replan() took over from the path before; else 0.")
       .def_property_readonly(
-          "predict_error", [](const PlanResult& r) { return text_of(r.predict_error); },
+          "predict_error", text_getter(&PlanResult::predict_error),
           "Why the plan was made unguided, with on_predict_error='unguided'; '' when nothing failed.")
       .def_property_readonly(
           "timings", [](const PlanResult& r) { return timings_dict(r.timings); },

@@ -158,8 +158,7 @@ void bind_model_info(py::module_& module) {
   py::class_<ModelInfo>(module, "ModelInfo", "What a model file says about the model in it.")
       .def_property_readonly(
           "path", [](const ModelInfo& info) { return info.path; }, "The file.")
-      .def_property_readonly(
-          "name", [](const ModelInfo& info) { return text_of(info.name); }, "Name of the model.")
+      .def_property_readonly("name", text_getter(&ModelInfo::name), "Name of the model.")
       .def_property_readonly(
           "input_size", [](const ModelInfo& info) { return info.input.size; }, "Side of the input, pixels.")
       .def_property_readonly(
@@ -180,14 +179,10 @@ void bind_model_info(py::module_& module) {
           },
           "Names of the classes in output order.")
       .def_readonly("threshold", &ModelInfo::threshold, "A pixel is promising from this probability on.")
-      .def_property_readonly(
-          "training_data", [](const ModelInfo& info) { return text_of(info.training_data); },
-          "What the model was trained on.")
-      .def_property_readonly(
-          "training_budget", [](const ModelInfo& info) { return text_of(info.training_budget); },
-          "How long it was trained, on what.")
-      .def_property_readonly(
-          "commit", [](const ModelInfo& info) { return text_of(info.commit); }, "Commit of the training code.")
+      .def_property_readonly("training_data", text_getter(&ModelInfo::training_data), "What the model was trained on.")
+      .def_property_readonly("training_budget", text_getter(&ModelInfo::training_budget),
+                             "How long it was trained, on what.")
+      .def_property_readonly("commit", text_getter(&ModelInfo::commit), "Commit of the training code.")
       .def_readonly("runtime_version", &ModelInfo::runtime_version, "Version of the ONNX Runtime or libtorch in use.");
 }
 

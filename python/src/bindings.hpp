@@ -29,6 +29,12 @@ inline py::str text_of(const std::string& bytes) {
       PyUnicode_DecodeUTF8(bytes.data(), static_cast<Py_ssize_t>(bytes.size()), "replace"));
 }
 
+/// A getter of such bytes, for def_property_readonly.
+template <typename Owner>
+auto text_getter(std::string Owner::*member) {
+  return [member](const Owner& owner) { return text_of(owner.*member); };
+}
+
 /// Hands a vector to NumPy without copying it: the array owns the vector.
 template <typename T>
 py::array_t<T> to_array(std::vector<T> values, std::vector<py::ssize_t> shape) {

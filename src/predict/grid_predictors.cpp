@@ -78,10 +78,9 @@ std::vector<Pixel> descend(const OccupancyMap& map, const DistanceField& field, 
 
 GivenRegion::GivenRegion(int width, int height, std::vector<float> probability, float threshold)
     : width_(width), height_(height), probability_(std::move(probability)), threshold_(threshold) {
-  const std::string size = size_of(width, height);
   if (width < 1 || height < 1 ||
       probability_.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
-    throw RequestError("a region of " + size + " pixels needs a probability for each, got " +
+    throw RequestError("a region of " + size_of(width, height) + " pixels needs a probability for each, got " +
                        std::to_string(probability_.size()));
   }
   for (std::size_t i = 0; i < probability_.size(); ++i) {
